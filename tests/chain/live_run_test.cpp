@@ -2,9 +2,11 @@
 
 #include <gmock/gmock.h>
 
+#include <fstream>
 #include <opencv2/imgproc.hpp>
 
 #include "chain/recording/run_recorder.h"
+#include "core/error.h"
 #include "io/video/video_writer.h"
 #include "support/live_sender.h"
 #include "support/moving_scene.h"
@@ -31,17 +33,15 @@ class LiveRuns : public testing::Test {
         writer.finish();
         return folder_ / "film.ts";
     }
-    LiveOptions options() const {
-        LiveOptions options;
-        options.recording = folder_ / "live.ts";
-        options.stall_s = 1;
-        options.give_up_s = 2;
-        return options;
-    }
-    LiveRunResult live(LiveStream& stream, ChainObserver* also = nullptr) {
-        const SceneScale scale = sceneScale(stream.info(), 0.2);
-        const ChainOptions chain;
-        return runLive(stream, project_, plannedRun(stream.info(), scale, {}, "default"), chain, also);
+    LiveRequest request(int waiting_frames) const {
+        LiveRequest request;
+        request.address = address();
+        request.project = project_;
+        request.gsd_m_per_px = 0.2;
+        request.stream.stall_s = 1;
+        request.stream.give_up_s = 2;
+        request.stream.waiting_frames = waiting_frames;
+        return request;
     }
     std::string address() const { return "udp://127.0.0.1:" + std::to_string(port_); }
     test::TemporaryFolder folder_;
@@ -51,20 +51,18 @@ class LiveRuns : public testing::Test {
 
 /// Holds the first frame until the stream has left some out.
 struct Slow : ChainObserver {
-    explicit Slow(const LiveStream& from) : stream(from) {}
+    explicit Slow(const LiveRun& of) : run(of) {}
     void onFrame(const std::shared_ptr<const FrameResult>& result, const Frame&) override {
         if (result->motion.frame > 0) return;
-        test::waitUntil("frames were left out", [&] { return stream.facts().skipped > 0; });
+        test::waitUntil("frames were left out", [&] { return run.status().load.facts.skipped > 0; });
     }
-    const LiveStream& stream;
+    const LiveRun& run;
 };
 
 TEST_F(LiveRuns, ARunOverASourceIsOneOverItsRecording) {
     const test::LiveSender sender(port_, {{film(60), 6, 0.3}});
-    LiveOptions roomy = options();
-    roomy.waiting_frames = 1000;
-    LiveStream stream(address(), roomy, {});
-    const LiveRunResult result = live(stream);
+    LiveRun run(request(1000), {});
+    const LiveRunResult result = run.run();
     EXPECT_EQ(result.summary.outcome, RunOutcome::finished) << result.summary.message;
     EXPECT_EQ(result.record.state, RunState::finished);
     EXPECT_GE(result.record.frames_done, 50);
@@ -91,11 +89,9 @@ TEST_F(LiveRuns, ARunOverASourceIsOneOverItsRecording) {
 
 TEST_F(LiveRuns, AChainThatIsBehindTakesFewerCornersAndLeavesFramesOutAndSaysSo) {
     const test::LiveSender sender(port_, {{film(80), 1, 0.3}});
-    LiveOptions narrow = options();
-    narrow.waiting_frames = 8;
-    LiveStream stream(address(), narrow, {});
-    Slow slow(stream);
-    const LiveRunResult result = live(stream, &slow);
+    LiveRun run(request(8), {});
+    Slow slow(run);
+    const LiveRunResult result = run.run(&slow);
     EXPECT_EQ(result.summary.outcome, RunOutcome::finished) << result.summary.message;
     EXPECT_GT(result.load.facts.skipped, 0);
     EXPECT_GT(result.load.fewer_corners, 0);
@@ -108,6 +104,60 @@ TEST_F(LiveRuns, AChainThatIsBehindTakesFewerCornersAndLeavesFramesOutAndSaysSo)
     EXPECT_EQ(static_cast<int>(frames.size()), result.load.facts.frames) << "every frame has its row";
     EXPECT_EQ(frozen, result.load.facts.skipped);
     EXPECT_EQ(result.record.last_frame, result.load.facts.frames - 1);
+}
+
+TEST_F(LiveRuns, AtAnyMomentItSaysHowItStands) {
+    const test::LiveSender sender(port_, {{film(60), 3, 0.3}});
+    LiveRun run(request(1000), {});
+    struct Asked : ChainObserver {
+        explicit Asked(const LiveRun& of) : run(of) {}
+        void onFrame(const std::shared_ptr<const FrameResult>& result, const Frame&) override {
+            const LiveStatus status = run.status();
+            EXPECT_GT(status.load.facts.frames, result->motion.frame);
+            EXPECT_GE(status.behind_s, 0);
+            EXPECT_LT(status.behind_s, 5);
+            EXPECT_FALSE(status.lighter);
+        }
+        const LiveRun& run;
+    } asked(run);
+    int begun = 0;
+    const LiveRunResult result = run.run(&asked, [&](const RunRecord& record) { begun = record.id; });
+    EXPECT_EQ(begun, result.record.id);
+    EXPECT_EQ(result.record.name, address()) << "unless another name is given";
+    EXPECT_EQ(run.status().behind_s, 0);
+    EXPECT_EQ(run.recording(), folder_ / "live.ts");
+}
+
+TEST_F(LiveRuns, NothingIsLeftOfASourceThatDoesNotAnswer) {
+    LiveRequest wanted = request(10);
+    wanted.stream.connect_s = 0.5;
+    EXPECT_THROW(LiveRun(wanted, {}), Error);
+    EXPECT_FALSE(std::filesystem::exists(project_));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "live.ts"));
+}
+
+TEST_F(LiveRuns, WhatMayNotBeWrittenIsToldBeforeItWaitsForTheSource) {
+    LiveRequest wanted = request(10);
+    wanted.stream.recording = film(10);
+    try {
+        const LiveRun run(wanted, {});
+        FAIL() << "the film would be lost";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::output);
+        EXPECT_THAT(error.what(), testing::HasSubstr("is there already"));
+    }
+    wanted.stream.recording = folder_ / "absent/live.ts";
+    EXPECT_THROW(LiveRun(wanted, {}), Error);
+}
+
+TEST(LivePlaces, AreNamedAfterTheTimeAndTheProject) {
+    EXPECT_THAT(timedProjectName().string(), testing::MatchesRegex("live-[0-9]{8}-[0-9]{6}\\.eyrie"));
+    const test::TemporaryFolder folder;
+    EXPECT_EQ(recordingFor(folder / "a.eyrie"), folder / "a.ts");
+    std::ofstream(folder / "a.ts") << "earlier";
+    EXPECT_EQ(recordingFor(folder / "a.eyrie"), folder / "a-2.ts");
+    EXPECT_EQ(remarkOnRecording(10, 10), "");
+    EXPECT_THAT(remarkOnRecording(9, 10), testing::HasSubstr("shows 9 frames, the run has 10"));
 }
 
 TEST_F(LiveRuns, FewerCornersAreLessThanHalf) {

@@ -9,6 +9,7 @@ namespace fs = std::filesystem;
 
 namespace {
 constexpr int kListRefresh_ms = 1500;
+constexpr int kLengthStep = 10;  ///< frames
 
 /// Whether more of a run can be read than before.
 bool hasGrown(const RunRecord& before, const RunRecord& now) {
@@ -266,6 +267,21 @@ void ProjectSession::beginRun(RunRequest request) {
     setFollowing(true);
 }
 
+void ProjectSession::watchLive(LiveRequest request) {
+    if (running()) return;
+    cancelOpening();
+    project_opens_video_ = false;
+    playback_.pause();
+    request.options = settings_.options;
+    request.preset = settings_.preset;
+    request.stream.with_colour = true;
+    live_ = request;
+    run_project_.clear();
+    own_run_.reset();
+    controller_.watch(std::move(request), kTrailLength);
+    emit changed(SessionChange::run_preparing);
+}
+
 const FrameSummary* ProjectSession::frameSummary(FrameIndex frame) const {
     if (!run_data_) return nullptr;
     const auto& frames = run_data_->frames;
@@ -290,7 +306,18 @@ const RunRecord* ProjectSession::ownRun() const {
     return own_run_ && project_ == run_project_ ? findRun(*own_run_) : nullptr;
 }
 
+void ProjectSession::growVideo(const std::vector<FrameSummary>& frames) {
+    if (!live_ || !video_) return;
+    for (const FrameSummary& frame : frames) times_us_.push_back(frame.time_us);
+    video_->frame_count = static_cast<int>(times_us_.size());
+    // Told so seldom that what hangs on it costs little, of hours, too.
+    if (video_->frame_count < told_length_ + std::max(kLengthStep, told_length_ / 200)) return;
+    told_length_ = video_->frame_count;
+    emit changed(SessionChange::length);
+}
+
 void ProjectSession::liveRunStarted(const RunRecord& record) {
+    if (live_) adoptLive(record);
     if (project_ != run_project_) return;
     own_run_ = record.id;
     if (findRun(record.id) == nullptr) runs_.push_back(record);
@@ -305,6 +332,7 @@ void ProjectSession::liveFrameCame() {
     auto frame = controller_.takeFrame();
     if (project_ != run_project_) return;
     if (!summaries.empty()) {
+        growVideo(summaries);
         for (RunRecord& run : runs_)
             // Not counted one by one: a list that was read meanwhile may know of some of them already.
             if (own_run_ == run.id)
@@ -321,21 +349,26 @@ void ProjectSession::liveFrameCame() {
 
 void ProjectSession::liveRunEnded(const RunSummary& summary, int run_id) {
     const bool shown = project_ == run_project_;
-    if (summary.outcome == RunOutcome::failed) emit problem(QString::fromStdString(summary.message));
+    const std::optional<LiveRequest> live = std::exchange(live_, std::nullopt);
+    const bool refused = live && run_id == 0;
+    if (summary.outcome == RunOutcome::failed && !refused) emit problem(QString::fromStdString(summary.message));
     const bool followed = std::exchange(following_, false);
     if (followed) emit changed(SessionChange::following);
     if (shown) {
         reader_.readLists();
-        if (run_id != 0) reader_.readFacts(run_id);
+        if (run_id != 0 && !live) reader_.readFacts(run_id);
         // The stored tracks may differ from those seen live: they were finished with knowledge of the whole run.
         if (current_run_ == run_id && run_id != 0) {
             loader_.useRun(RunReference{project_, run_id}, kTrailLength);
             reader_.readRun(run_id, corrected_);
         }
-        if (followed) request();
+        if (followed && !live) request();
     }
+    const RunRecord* recorded = live && !refused ? ownRun() : nullptr;
+    if (recorded != nullptr && !pending_) readRecording(*recorded);
     own_run_.reset();
     emit changed(SessionChange::run_ended);
+    if (refused && summary.outcome == RunOutcome::failed) emit liveRefused(QString::fromStdString(summary.message));
     emit runFinished(summary);
 }
 

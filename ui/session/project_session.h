@@ -21,6 +21,7 @@ namespace eyrie::ui {
 /// What of a session's state is another than it was. What it is now, the session tells.
 enum class SessionChange {
     video,    ///< another one, or none
+    length,   ///< more of the same video: it is being recorded
     project,  ///< another one, or none
     opened,   ///< video and project are open
     runs,     ///< the list of runs
@@ -114,6 +115,14 @@ class ProjectSession : public QObject {
     /// A new run with the settings.
     void startRun();
     void stopRun() { controller_.stop(); }
+    /// Watches a live source: once it answers, its recording is the video, and the run over it works in its project,
+    /// which is opened. Until then all stays as it is; see liveRefused(). Ends by stopRun(). Parameters and preset are
+    /// those of the settings. Not while a run works.
+    void watchLive(LiveRequest request);
+    /// The live source that is watched or waited for; null: none.
+    const LiveRequest* liveSource() const { return live_ ? &*live_ : nullptr; }
+    /// How it stands; nothing before it answers.
+    std::optional<LiveStatus> liveStatus() const { return controller_.liveStatus(); }
     /// Whether a run ended early and can be gone on with now: its video is shown, and no run works.
     bool canContinue(int run_id) const;
     /// Goes on with it; the result is that of a run that was never stopped.
@@ -160,6 +169,9 @@ class ProjectSession : public QObject {
     void trackStatesRead(TrackId track, const std::vector<TrackFrame>& states);
     void runProgress(const RunProgress& progress);
     void liveFrames(const std::vector<FrameSummary>& frames);
+    /// Follows SessionChange::run_ended: a live source did not answer, or could not be recorded. Nothing was made, and
+    /// nothing is another than before.
+    void liveRefused(const QString& why);
     /// Follows SessionChange::run_ended: how it ended.
     void runFinished(const RunSummary& summary);
     /// Follows runFinished() when the run was stored: what came of it.
@@ -176,6 +188,7 @@ class ProjectSession : public QObject {
         another_video,    ///< with a project of its own
         of_project,       ///< a video of the project that is open; it may be missing
         moved,            ///< the same, at a place where it may lie now
+        recorded,         ///< the recording of a live source, as far as it goes
         remembered_rate,  ///< the same video anew, with the frame rate that its project knows
         other_rate        ///< the same video anew, with a frame rate that a person gave
     };
@@ -212,6 +225,11 @@ class ProjectSession : public QObject {
     void runRead(const std::shared_ptr<const RunData>& run);
     void listsRead(const ProjectLists& lists);
     void beginRun(RunRequest request);
+    void adoptLive(const RunRecord& record);
+    void adoptLiveProject();
+    void growVideo(const std::vector<FrameSummary>& frames);
+    void readRecording(const RunRecord& run);
+    void adoptRecording(const Pending& pending, const OpenedVideo& video);
     void liveRunStarted(const RunRecord& record);
     void liveFrameCame();
     void liveRunEnded(const RunSummary& summary, int run_id);
@@ -238,6 +256,9 @@ class ProjectSession : public QObject {
     bool corrected_ = true;
     std::filesystem::path run_project_;  ///< the project the running run writes to
     std::optional<int> own_run_;         ///< the running run, once it has its number
+    std::optional<LiveRequest> live_;    ///< while a live source is watched or waited for
+    int told_length_ = 0;                ///< frames of its recording that were told of
+    int readable_length_ = 0;            ///< frames of it that pictures can be read of
     bool run_when_open_ = false;         ///< a run was asked for while the frame rate changes
     RunSettings settings_;
     FrameIndex current_frame_ = 0;

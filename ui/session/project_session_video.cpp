@@ -69,6 +69,10 @@ void ProjectSession::mediaOpened(int ticket, const OpenedVideo& video) {
     if (pending.media.becomes_list)
         pending.media = videoMedia(video.info.path, {.given_hz = pending.media.given_rate_hz});
     emit openingEnded();
+    if (pending.purpose == Purpose::recorded) {
+        adoptRecording(pending, video);
+        return;
+    }
     if (pending.purpose == Purpose::moved && !isSameVideo(*pending.sequence, video.info)) {
         showWithoutVideo(*pending.sequence, pending.run,
                          tr("%1 is another video: it has %2 frames of %3 × %4; that of the project has %5 of %6 × %7. "
@@ -100,6 +104,7 @@ void ProjectSession::mediaOpened(int ticket, const OpenedVideo& video) {
             showProject(pending.run);
             return;
         case Purpose::another_video:
+        case Purpose::recorded:
             break;
     }
     project_open_ = false;
@@ -114,7 +119,7 @@ void ProjectSession::mediaFailed(int ticket, const QString& message) {
     const Pending pending = *std::exchange(pending_, std::nullopt);
     run_when_open_ = false;
     emit openingEnded();
-    if (pending.purpose == Purpose::of_project)
+    if (pending.purpose == Purpose::of_project || (pending.purpose == Purpose::recorded && !live_))
         findMovedVideo(pending, message);
     else if (pending.purpose == Purpose::moved)
         showWithoutVideo(*pending.sequence, pending.run, message);
@@ -154,6 +159,10 @@ void ProjectSession::projectOpened(const ProjectLists& lists) {
     if (!lists.notice.empty()) emit notice(QString::fromStdString(lists.notice));
     if (opens_video) {
         openVideoOfProject();
+        return;
+    }
+    if (live_ && project_ == run_project_) {
+        adoptLiveProject();
         return;
     }
     emit changed(SessionChange::project);
@@ -312,6 +321,56 @@ void ProjectSession::showWithoutVideo(const SequenceRecord& sequence, std::optio
     emit videoNotFound(message);
 }
 
+// ---- live sources: the video that is being recorded
+// ------------------------------------------------------------------
+
+void ProjectSession::adoptLive(const RunRecord& record) {
+    cancelOpening();
+    loader_.closeMedia();
+    OpenedVideo video;
+    video.info.path = record.sequence.path;
+    video.info.size = record.sequence.size;
+    video.info.frame_rate_hz = record.sequence.frame_rate_hz;
+    project_open_ = false;
+    takeLists({});
+    useRun(std::nullopt);
+    adoptVideo(mediaOf(record.sequence), video, false);
+    if (record.scale.gsd_known) settings_.useGsd(record.scale.gsd_m_per_px, record.scale_basis.origin);
+    told_length_ = readable_length_ = 0;
+    project_ = run_project_ = live_->project;
+    reader_.open(project_);
+    setFollowing(true);
+}
+
+void ProjectSession::adoptLiveProject() {
+    emit changed(SessionChange::project);
+    emit changed(SessionChange::runs);
+    emit changed(SessionChange::opened);
+    emit ready(false);
+    setFollowing(true);  // however the project was looked at before
+}
+
+void ProjectSession::readRecording(const RunRecord& run) {
+    Pending recording{mediaOf(run.sequence), Purpose::recorded, project_, run.sequence, run.id};
+    recording.sequence->frame_count = video_->frame_count;
+    beginOpening(std::move(recording));
+}
+
+void ProjectSession::adoptRecording(const Pending& pending, const OpenedVideo& video) {
+    readable_length_ = video.info.frame_count;
+    if (live_) {  // it still grows: only its pictures are of use
+        loader_.request(current_frame_, 0);
+        return;
+    }
+    const std::string remark = remarkOnRecording(video.info.frame_count, pending.sequence->frame_count);
+    if (!remark.empty()) emit notice(tr("Note: %1.").arg(QString::fromStdString(remark)));
+    adoptVideo(pending.media, video, true);
+    useRun(pending.run);
+    adoptGsd();
+    emit changed(SessionChange::opened);
+    if (pending.run) reader_.readFacts(*pending.run);
+}
+
 // ---- where in the video one is, playing, and which track is looked at ----------------------------------------------
 
 void ProjectSession::follow() {
@@ -348,7 +407,10 @@ void ProjectSession::showFrame(FrameIndex frame) {
 }
 
 void ProjectSession::request() {
-    if (video_) loader_.request(current_frame_, running() ? 0 : direction_);
+    if (!video_) return;
+    const RunRecord* own = live_ && !following_ && current_frame_ >= readable_length_ ? ownRun() : nullptr;
+    if (own != nullptr && !pending_) readRecording(*own);
+    loader_.request(current_frame_, running() ? 0 : direction_);
 }
 
 void ProjectSession::setPictureLook(const PictureLook& look) {

@@ -1,6 +1,7 @@
 #include "session/run_controller.h"
 
 #include <exception>
+#include <mutex>
 #include <utility>
 
 #include "chain/scale_estimation.h"
@@ -19,12 +20,52 @@ RunController::RunController(QObject* parent) : QObject(parent) {
 
 RunController::~RunController() = default;
 
+/// The run over a live source while there is one, for both threads.
+struct RunController::Watched {
+    std::mutex mutex;
+    const LiveRun* run = nullptr;
+
+    /// While it lives, the run can be asked how it stands.
+    class Shown {
+     public:
+        Shown(Watched& watched, const LiveRun& run) : watched_(watched) { set(&run); }
+        ~Shown() { set(nullptr); }
+        Shown(const Shown&) = delete;
+        Shown& operator=(const Shown&) = delete;
+
+     private:
+        void set(const LiveRun* run) {
+            const std::scoped_lock lock(watched_.mutex);
+            watched_.run = run;
+        }
+        Watched& watched_;
+    };
+};
+
+void RunController::begin(int trail_length) {
+    poll_.start();
+    feed_ = std::make_shared<LiveFeed>(trail_length, [this] { query_.tell([this] { fetch(); }); });
+}
+
 void RunController::start(RunRequest request) {
     if (running()) return;
-    poll_.start();
-    feed_ = std::make_shared<LiveFeed>(request.trail_length, [this] { query_.tell([this] { fetch(); }); });
+    begin(request.trail_length);
     run_ = query_.post(
         [this, request = std::move(request), feed = feed_](const BackgroundTask& task) { work(request, *feed, task); });
+}
+
+void RunController::watch(LiveRequest request, int trail_length) {
+    if (running()) return;
+    begin(trail_length);
+    watched_ = std::make_shared<Watched>();
+    run_ = query_.post([this, request = std::move(request), feed = feed_,
+                        watched = watched_](const BackgroundTask& task) { workLive(request, *feed, *watched, task); });
+}
+
+std::optional<LiveStatus> RunController::liveStatus() const {
+    if (!watched_) return std::nullopt;
+    const std::scoped_lock lock(watched_->mutex);
+    return watched_->run != nullptr ? std::optional(watched_->run->status()) : std::nullopt;
 }
 
 std::optional<ViewFrame> RunController::takeFrame() {
@@ -72,6 +113,28 @@ void RunController::work(const RunRequest& request, LiveFeed& feed, const Backgr
         summary.outcome = stop.stop_requested() && run_id == 0 ? RunOutcome::stopped : RunOutcome::failed;
         summary.message = error.what();
     }
+    close(summary, run_id, feed, task);
+}
+
+void RunController::workLive(const LiveRequest& request, LiveFeed& feed, Watched& watched, const BackgroundTask& task) {
+    RunSummary summary;
+    int run_id = 0;
+    try {
+        LiveRun run(request, task.stop());
+        const auto begun = [&](const RunRecord& record) {
+            run_id = record.id;
+            task.tell([this, record] { emit started(record); });
+        };
+        const Watched::Shown shown(watched, run);
+        summary = run.run(&feed, begun).summary;
+    } catch (const std::exception& error) {
+        summary.outcome = task.stop().stop_requested() && run_id == 0 ? RunOutcome::stopped : RunOutcome::failed;
+        summary.message = error.what();
+    }
+    close(summary, run_id, feed, task);
+}
+
+void RunController::close(const RunSummary& summary, int run_id, LiveFeed& feed, const BackgroundTask& task) {
     feed.flush();
     task.tell([this, summary, run_id] { end(summary, run_id); });
 }
@@ -87,6 +150,7 @@ void RunController::end(const RunSummary& summary, int run_id) {
     fetch();
     poll_.stop();
     feed_.reset();
+    watched_.reset();
     emit finished(summary, run_id);
 }
 

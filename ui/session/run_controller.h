@@ -9,6 +9,7 @@
 
 #include "chain/chain_options.h"
 #include "chain/chain_run.h"
+#include "chain/live/live_run.h"
 #include "session/background/background_query.h"
 #include "session/live_feed.h"
 #include "session/project/media.h"
@@ -43,6 +44,10 @@ class RunController : public QObject {
     bool stopping() const { return running() && run_.stop_requested(); }
     /// Returns at once. Nothing happens while a run works.
     void start(RunRequest request);
+    /// The same over a live source, which is recorded as it comes. started() follows once it answers.
+    void watch(LiveRequest request, int trail_length);
+    /// How the live source stands; nothing before it answers, and when none is watched.
+    std::optional<LiveStatus> liveStatus() const;
     /// Returns at once; finished() follows.
     void stop() { run_.request_stop(); }
 
@@ -59,12 +64,17 @@ class RunController : public QObject {
     void finished(const RunSummary& summary, int run_id);
 
  private:
+    struct Watched;
+    void begin(int trail_length);
     void work(const RunRequest& request, LiveFeed& feed, const BackgroundTask& task);
+    void workLive(const LiveRequest& request, LiveFeed& feed, Watched& watched, const BackgroundTask& task);
+    void close(const RunSummary& summary, int run_id, LiveFeed& feed, const BackgroundTask& task);
     void fetch();
     void end(const RunSummary& summary, int run_id);
 
-    QTimer poll_;                     ///< fetches what a run that hangs on a frame has not told yet
-    std::shared_ptr<LiveFeed> feed_;  ///< exists while a run works
+    QTimer poll_;                       ///< fetches what a run that hangs on a frame has not told yet
+    std::shared_ptr<LiveFeed> feed_;    ///< exists while a run works
+    std::shared_ptr<Watched> watched_;  ///< exists while a live source is watched or waited for
     std::stop_source run_;
     BackgroundQuery query_;  ///< last: ends the run before the rest goes
 };

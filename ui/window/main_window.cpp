@@ -18,6 +18,7 @@
 #include "canvas/layers/stages/image_stack_layer.h"
 #include "canvas/timeline/timeline_view.h"
 #include "canvas/video_view.h"
+#include "io/live/live_address.h"
 #include "label/canvas/label_timeline.h"
 #include "label/label_workspace.h"
 #include "review/card/card_dock.h"
@@ -52,6 +53,8 @@
 #include "window/docks/event_report.h"
 #include "window/docks/review_docks.h"
 #include "window/docks/tuning.h"
+#include "window/live/live_strip.h"
+#include "window/live/live_watching.h"
 #include "window/opened_files.h"
 #include "window/run_guard.h"
 #include "window/run_messages.h"
@@ -118,6 +121,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
         session_, *messages_, *docks_, [this] { files_->locateVideo(); }, this);
     files_ =
         new OpenedFiles({session_, settings_, *actions_, *messages_, *guard_, *run_bar_, *welcome_, *canvas_, *this});
+    live_ = new LiveWatching({session_, settings_, *actions_, *guard_, [this] { files_->rememberView(); }, *this});
     commands_ = new WindowCommands(
         {session_, *actions_, *canvas_, *transport_, *run_bar_, *inspection_, keys_, *labelling_, *this});
     buildMenus();
@@ -159,7 +163,9 @@ void MainWindow::buildCentre() {
     auto* layout = new QVBoxLayout(centre);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
+    live_strip_ = new LiveStrip(session_);
     layout->addWidget(messages_);
+    layout->addWidget(live_strip_);
     layout->addWidget(stack_, 1);
     setCentralWidget(centre);
 }
@@ -204,7 +210,10 @@ void MainWindow::buildMenus() {
 
 void MainWindow::start(const StartOptions& options) {
     if (options.workspace) workspaces_->open(*options.workspace);
-    files_->start(options);
+    if (isLiveAddress(options.input.string()))
+        live_->ask(QString::fromStdString(options.input.string()));
+    else
+        files_->start(options);
 }
 
 // ---- wiring ---------------------------------------------------------------------------------------------------------

@@ -23,6 +23,8 @@ class Inspection;
 class LabelTimeline;
 class LabelWorkspace;
 class LikeTracks;
+class LiveStrip;
+class LiveWatching;
 class MessageBar;
 class MosaicPanel;
 class OpenedFiles;
@@ -77,6 +79,8 @@ class MainWindow : public QMainWindow {
     EventReport& eventReport() { return *event_report_; }
     EvaluationDocks& evaluation() { return *evaluation_; }
     Tuning& tuning() { return *tuning_; }
+    LiveStrip& liveStrip() { return *live_strip_; }
+    LiveWatching& live() { return *live_; }
 
  protected:
     void resizeEvent(QResizeEvent* event) override;
@@ -119,6 +123,8 @@ class MainWindow : public QMainWindow {
     RunBar* run_bar_;
     bool told_missing_ = false;  ///< that the run has no result of the frame shown
     RunGuard* guard_;
+    LiveStrip* live_strip_;
+    LiveWatching* live_;
     StatusFields* status_;
     Inspection* inspection_;
     DockRegistry* docks_;

@@ -31,6 +31,15 @@ void RunGuard::beforeEnding(const QString& doing, std::function<void()> then) {
         else
             then();
     };
+    if (session_.liveSource() != nullptr) {
+        // It may never end by itself, so nothing can wait for that.
+        ask(window_, tr("A live source is being watched. Stop watching before %1?").arg(doing),
+            tr("What was recorded and found so far is kept."), {{tr("Stop watching"), [this, wait] {
+                                                                     session_.stopRun();
+                                                                     wait();
+                                                                 }}});
+        return;
+    }
     ask(window_, tr("A run is still running. Stop it before %1?").arg(doing),
         tr("The frames done so far are kept in either case."),
         {{tr("Stop the run"),

@@ -34,6 +34,7 @@ TimelineBinding::TimelineBinding(ProjectSession& session, TimelineView& timeline
     whenChanged(session_, this,
                 {
                     {SessionChange::video, [this] { showVideo(); }},
+                    {SessionChange::length, [this] { showLength(); }},
                     {SessionChange::current_run, [this] { forgetRun(); }},
                     {SessionChange::run_data, [this] { showRun(); }},
                     {SessionChange::selection, [this] { showTrackLife(); }},
@@ -74,6 +75,11 @@ QString TimelineBinding::describe(FrameIndex frame) const {
     return lines.join(QLatin1Char('\n'));
 }
 
+void TimelineBinding::showLength() {
+    timeline_.extendTimes(session_.timesUs());
+    if (live_) timeline_.setRunRange(std::pair(0, session_.lastFrame()));
+}
+
 void TimelineBinding::forgetRun() {
     endLive();
     timeline_.setFrames({});
@@ -103,7 +109,8 @@ void TimelineBinding::showRun() {
 void TimelineBinding::beginLive() {
     live_ = true;
     known_before_ = false;
-    if (const RunRecord* run = session_.ownRun()) timeline_.setRunRange(std::pair(run->first_frame, run->last_frame));
+    if (const RunRecord* run = session_.ownRun())
+        timeline_.setRunRange(std::pair(run->first_frame, std::min(run->last_frame, session_.lastFrame())));
 }
 
 void TimelineBinding::endLive() {

@@ -25,6 +25,7 @@ class TimelineBinding : public QObject {
 
  private:
     void showVideo();
+    void showLength();
     void forgetRun();
     void showRun();
     void beginLive();

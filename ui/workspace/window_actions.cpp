@@ -23,6 +23,8 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
     section(tr("&File"));
     open_video = add(tr("Open &video…"), {"document-open", {QKeySequence::Open}});
     open_folder = add(tr("Open folder of &images…"), {"document-open-folder", {QKeySequence(tr("Ctrl+Shift+O"))}});
+    watch_live = add(tr("Watch a &live source…"),
+                     {"camera-video", {}, QT_TR_NOOP("A camera or stream on the net, recorded as it comes")});
     open_project = add(tr("Open &project…"), {"project-open", {QKeySequence(tr("Ctrl+P"))}});
     save_as = add(tr("&Save project as…"), {"document-save-as",
                                             {QKeySequence(tr("Ctrl+Shift+S"))},

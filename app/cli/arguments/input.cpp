@@ -4,7 +4,7 @@
 
 #include "cli/reports/console_progress.h"
 #include "core/error.h"
-#include "io/live/live_stream.h"
+#include "io/live/live_address.h"
 #include "io/video/parts/part_list.h"
 #include "io/video/parts/part_source.h"
 #include "scene/scene_source.h"

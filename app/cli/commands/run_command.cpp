@@ -23,7 +23,7 @@
 #include "core/error.h"
 #include "core/project_name.h"
 #include "io/folder.h"
-#include "io/live/live_stream.h"
+#include "io/live/live_address.h"
 #include "io/tables/box_csv.h"
 #include "io/tables/number_text.h"
 #include "io/video/parts/part_list.h"

@@ -1,14 +1,22 @@
 #include "chain/live/live_run.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "chain/recording/chain_state.h"
 #include "chain/recording/run_recorder.h"
+#include "core/error.h"
+#include "core/project_name.h"
+#include "core/utc_time.h"
+#include "io/live/live_address.h"
+#include "io/output_files.h"
 #include "io/tables/number_text.h"
+#include "store/backup/database_copy.h"
 #include "store/runs/run_end.h"
 
 namespace eyrie {
@@ -39,11 +47,15 @@ class LighterReading : public FrameSource {
             patience_ *= 2;
         }
         Frame frame = stream_.read(index, with_colour);
+        ++frames_read_;
         if (lighter_) ++fewer_corners_;
         last_ = frame;
         return frame;
     }
+    // From any thread:
     int fewerCorners() const { return fewer_corners_; }
+    int framesRead() const { return frames_read_; }
+    bool lighter() const { return lighter_; }
 
  private:
     /// The new half knows the last picture, so that the next one is registered onto it.
@@ -61,10 +73,11 @@ class LighterReading : public FrameSource {
     SceneScale scale_;
     std::shared_ptr<ChainProgress> progress_;
     Frame last_;
-    bool lighter_ = false;
+    std::atomic<bool> lighter_{false};
     double in_pace_ = 0;
     double patience_ = 1;
     std::atomic<int> fewer_corners_{0};
+    std::atomic<int> frames_read_{0};
 };
 
 /// Records, and tells the project how far the run has come. Keeps no states: a live source cannot be read again.
@@ -95,6 +108,32 @@ class LiveRecorder : public ChainObserver {
     std::chrono::steady_clock::time_point told_{};
 };
 
+/// Takes a project away again that was made for a run which then did not begin.
+class ProjectOfRun {
+ public:
+    explicit ProjectOfRun(std::filesystem::path project)
+        : project_(std::move(project)), is_new_(!std::filesystem::exists(std::filesystem::symlink_status(project_))) {}
+    ~ProjectOfRun() {
+        if (is_new_ && !isUsed()) removeDatabase(project_);
+    }
+    ProjectOfRun(const ProjectOfRun&) = delete;
+    ProjectOfRun& operator=(const ProjectOfRun&) = delete;
+
+ private:
+    bool isUsed() const {
+        try {
+            ProjectFile file = ProjectFile::open(project_, ProjectFile::Mode::read_only);
+            const std::vector<RunRecord> runs = RunStore(file).runs();
+            return std::any_of(runs.begin(), runs.end(),
+                               [](const RunRecord& run) { return run.frames_done > 0 || run.live; });
+        } catch (const Error&) {
+            return true;  // what cannot be read is left to whoever looks for the cause
+        }
+    }
+    std::filesystem::path project_;
+    bool is_new_;
+};
+
 }  // namespace
 
 std::string LiveLoad::text() const {
@@ -115,27 +154,107 @@ ChainOptions withFewerCorners(ChainOptions options) {
     return options;
 }
 
-LiveRunResult runLive(LiveStream& stream, const std::filesystem::path& project, const RunRecord& planned,
-                      const ChainOptions& options, ChainObserver* also, const RecordingOptions& recording) {
+/// What a live run is made of.
+struct LiveRun::Parts {
+    Parts(LiveRequest wanted, std::stop_token stop)
+        : request(withRecording(std::move(wanted))),
+          made(request.project),
+          stream(request.address, request.stream, std::move(stop)),
+          scale(sceneScale(stream.info(), request.gsd_m_per_px)),
+          start{std::make_shared<ChainProgress>(request.options, scale), 0},
+          source(stream, request.options, scale, start.progress) {}
+
+    static LiveRequest withRecording(LiveRequest request) {
+        if (request.stream.recording.empty()) request.stream.recording = recordingFor(request.project);
+        request.stream.also_written.push_back(request.project);
+        const std::vector<OutputFile> written{{request.project, FileKind::project, true, false},
+                                              {request.stream.recording, FileKind::video}};
+        if (const auto there = filesToReplace(written, {}); !there.empty())
+            throw Error(
+                ErrorKind::output,
+                shortList(there) + ": is there already; a recording takes the place of no file, choose another name");
+        return request;
+    }
+
+    LiveRequest request;
+    ProjectOfRun made;
+    LiveStream stream;
+    SceneScale scale;
+    RunStart start;
+    LighterReading source;
+};
+
+LiveRun::LiveRun(LiveRequest request, std::stop_token stop)
+    : parts_(std::make_unique<Parts>(std::move(request), std::move(stop))) {}
+
+LiveRun::~LiveRun() = default;
+
+const VideoInfo& LiveRun::video() const {
+    return parts_->stream.info();
+}
+
+const SceneScale& LiveRun::scale() const {
+    return parts_->scale;
+}
+
+const std::filesystem::path& LiveRun::recording() const {
+    return parts_->request.stream.recording;
+}
+
+LiveStatus LiveRun::status() const {
+    LiveStatus status;
+    status.load = {parts_->stream.facts(), parts_->source.fewerCorners()};
+    status.lighter = parts_->source.lighter();
+    status.behind_s = (status.load.facts.frames - parts_->source.framesRead()) / video().frame_rate_hz;
+    return status;
+}
+
+LiveRunResult LiveRun::run(ChainObserver* also, const Begun& begun) {
+    const LiveRequest& request = parts_->request;
     LiveRunResult result;
-    RunRecorder recorder(project, planned, options, also, recording);
-    LiveRecorder live(recorder, project);
-    RunStart start{std::make_shared<ChainProgress>(options, planned.scale), 0};
-    LighterReading source(stream, options, planned.scale, start.progress);
+    RunRecord planned = plannedRun(video(), scale(), {}, request.preset);
+    planned.name = request.name.empty() ? shownAddress(request.address) : request.name;
+    RunRecorder recorder(request.project, planned, request.options, also, request.details);
+    LiveRecorder live(recorder, request.project);
+    planned.id = recorder.runId();
+    if (begun) begun(planned);
     RunSummary& summary = result.summary;
     // Whoever wants it to end ends the stream: what came before is still worked on.
-    summary = ChainRun(options, planned.scale).run(source, {}, live, {}, false, start);
-    stream.finish();
+    summary =
+        ChainRun(request.options, scale()).run(parts_->source, {}, live, {}, request.stream.with_colour, parts_->start);
+    parts_->stream.finish();
     if (summary.outcome == RunOutcome::stopped) summary.outcome = RunOutcome::finished;
     summary.frames_total = summary.frames_done;
-    result.load = {stream.facts(), source.fewerCorners()};
+    result.load = status().load;
     summary.median_ms[static_cast<std::size_t>(Stage::store)] = recorder.medianStoreMs();
     recorder.finish(summary);
     live.tellEnd();
     if (summary.outcome == RunOutcome::finished) live.tellRemark(result.load.text());
-    ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
+    ProjectFile file = ProjectFile::open(request.project, ProjectFile::Mode::read_only);
     result.record = RunStore(file).run(recorder.runId()).value();
     return result;
+}
+
+std::filesystem::path timedProjectName() {
+    std::string digits;
+    for (const char c : nowUtc())
+        if (c >= '0' && c <= '9') digits += c;
+    return "live-" + digits.substr(0, 8) + "-" + digits.substr(8, 6) + kProjectEnding;
+}
+
+std::filesystem::path recordingFor(const std::filesystem::path& project) {
+    std::filesystem::path path = std::filesystem::absolute(project).replace_extension(".ts");
+    const std::string stem = path.stem().string();
+    std::error_code ignored;
+    for (int number = 2; std::filesystem::exists(std::filesystem::symlink_status(path, ignored)); ++number)
+        path.replace_filename(stem + "-" + std::to_string(number) + ".ts");
+    return path;
+}
+
+std::string remarkOnRecording(int recorded_frames, int run_frames) {
+    if (recorded_frames == run_frames) return {};
+    return "the recording shows " + std::to_string(recorded_frames) + " frames, the run has " +
+           std::to_string(run_frames) + ": packets were damaged or lost, and boxes may lie some frames off";
 }
 
 }  // namespace eyrie

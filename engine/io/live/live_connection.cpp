@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "io/live/live_stream.h"
+#include "io/live/live_address.h"
 
 namespace eyrie {
 namespace {

@@ -126,6 +126,10 @@ bool LiveRecording::write(AVPacket& packet, const AVFormatContext& demuxer, std:
     return true;
 }
 
+std::uint64_t LiveRecording::bytes() const {
+    return muxer_ ? static_cast<std::uint64_t>(std::max<std::int64_t>(0, avio_tell(muxer_->pb))) : 0;
+}
+
 void LiveRecording::discard() {
     if (!muxer_) return;
     muxer_.reset();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -27,6 +28,8 @@ class LiveRecording {
     /// before the first packet of a connection. False for what is not recorded: before the first key frame, or of a new
     /// track. Throws Error(output).
     bool write(AVPacket& packet, const AVFormatContext& demuxer, std::int64_t gap_us);
+    /// Written so far.
+    std::uint64_t bytes() const;
     /// Completes the file, if there is one. Throws Error(output).
     void finish();
     /// Takes the file away, if it was made: nothing in it can be shown.

@@ -1,7 +1,6 @@
 #include "io/live/live_stream.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -12,9 +11,11 @@
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <vector>
 
 #include "core/error.h"
 #include "core/values/last_frame.h"
+#include "io/live/live_address.h"
 #include "io/live/live_connection.h"
 #include "io/live/live_recording.h"
 #include "io/video/pixel_conversion.h"
@@ -25,11 +26,28 @@ namespace {
 using LiveClock = std::chrono::steady_clock;
 
 constexpr double kBetweenAttempts_s = 0.5;
-constexpr std::array<const char*, 11> kLiveSchemes{"udp",  "rtp",   "rtsp", "rtsps", "srt", "tcp",
-                                                   "http", "https", "rtmp", "rtmps", "mmsh"};
+constexpr double kBetweenLooks_s = 1;  ///< at the space that is left
 
 double liveSecondsSince(LiveClock::time_point start) {
     return std::chrono::duration<double>(LiveClock::now() - start).count();
+}
+
+/// The disk with the least space of those that are written to.
+struct DiskSpace {
+    std::filesystem::path path;    ///< what is written there
+    std::uint64_t free_bytes = 0;  ///< 0: nothing could be asked
+};
+
+DiskSpace leastSpace(const LiveOptions& options) {
+    std::vector<std::filesystem::path> written = options.also_written;
+    written.push_back(options.recording);
+    DiskSpace least;
+    for (const std::filesystem::path& path : written) {
+        std::error_code unknown;
+        const auto space = std::filesystem::space(std::filesystem::absolute(path).parent_path(), unknown);
+        if (!unknown && (least.path.empty() || space.available < least.free_bytes)) least = {path, space.available};
+    }
+    return least;
 }
 
 std::string liveSizeText(cv::Size size) {
@@ -41,26 +59,10 @@ struct WaitingFrame {
     FrameIndex index = 0;
     std::int64_t time_us = 0;
     cv::Mat gray;
+    cv::Mat colour;  ///< where that is wanted
 };
 
 }  // namespace
-
-bool isLiveAddress(const std::string& input) {
-    const std::size_t end = input.find("://");
-    if (end == std::string::npos) return false;
-    const std::string scheme = input.substr(0, end);
-    return std::any_of(kLiveSchemes.begin(), kLiveSchemes.end(), [&](const char* known) { return scheme == known; });
-}
-
-std::string shownAddress(const std::string& address) {
-    const std::string shown = address.substr(0, address.find('?'));
-    const std::size_t begin = shown.find("://");
-    const std::size_t end = begin == std::string::npos ? begin : shown.find('/', begin + 3);
-    const std::size_t at = shown.rfind('@', end);
-    // udp://@239.0.0.1 listens; a name and a password stand between.
-    if (begin == std::string::npos || at == std::string::npos || at <= begin + 3) return shown;
-    return shown.substr(0, begin + 3) + shown.substr(at + 1);
-}
 
 /// What receives, on a thread of its own.
 struct LiveStream::Receiver {
@@ -92,7 +94,22 @@ struct LiveStream::Receiver {
         changed.notify_all();
     }
 
+    /// Why nothing more may be written; empty while there is room. The receiving thread asks.
+    std::string lackOfRoom() {
+        looked_at_disk = LiveClock::now();
+        const DiskSpace least = leastSpace(options);
+        {
+            const std::scoped_lock lock(mutex);
+            facts.free_bytes = least.free_bytes;
+        }
+        if (least.path.empty() || least.free_bytes >= options.least_free_bytes) return {};
+        return "the disk of " + least.path.string() + " has less than " +
+               std::to_string(options.least_free_bytes / 1'000'000) + " MB left";
+    }
+
     void receiveAll() {
+        if (const std::string lack = lackOfRoom(); !lack.empty())
+            throw Error(ErrorKind::output, lack + "; make room, or choose another place");
         LiveRecording recording(options.recording);
         try {
             receiveInto(recording);
@@ -129,6 +146,7 @@ struct LiveStream::Receiver {
     /// Null when it is given up, or no longer wanted.
     std::unique_ptr<LiveConnection> connectAgain() {
         std::string why;
+        setConnected(false);
         while (!ending.stop_requested()) {
             const double left = options.give_up_s - liveSecondsSince(last_picture);
             if (left <= 0) {
@@ -141,6 +159,7 @@ struct LiveStream::Receiver {
                     address, std::max(0.5, std::min(left, options.connect_s)), ending.get_token());
                 const std::scoped_lock lock(mutex);
                 ++facts.reconnects;
+                facts.connected = true;
                 return connection;
             } catch (const Error& refused) {
                 why = refused.what();
@@ -169,6 +188,7 @@ struct LiveStream::Receiver {
         learnRate(stream);
         const libav::Packet packet(av_packet_alloc());
         const LiveClock::time_point begin = LiveClock::now();
+        bool full = false;
         while (!ending.stop_requested()) {
             if (!connection.read(*packet, options.stall_s)) break;
             const double gap = facts.frames > 0 ? liveSecondsSince(last_picture) : 0;
@@ -179,10 +199,12 @@ struct LiveStream::Receiver {
             const bool good = !recorded || !picture || decode(*codec, packet.get());
             av_packet_unref(packet.get());
             if (!good) return false;
+            full = !hasRoom(recording.bytes());
+            if (full) break;
             if (stalls(begin)) break;
         }
         // What the decoder holds back still counts: the recording has it.
-        if (!decode(*codec, nullptr) || ending.stop_requested()) return false;
+        if (!decode(*codec, nullptr) || full || ending.stop_requested()) return false;
         if (connection.hasEnded()) endFor("the source has an end; download it and run over the file");
         return !connection.hasEnded();
     }
@@ -209,6 +231,23 @@ struct LiveStream::Receiver {
         info.frame_rate_hz = rate > 1 && rate < 1000 ? rate : 25;
         info.codec = avcodec_get_name(stream.codecpar->codec_id);
         info.container = "mpegts";
+    }
+
+    void setConnected(bool connected) {
+        const std::scoped_lock lock(mutex);
+        facts.connected = connected;
+    }
+
+    /// Takes down what is recorded; false, having ended, once too little space is left.
+    bool hasRoom(std::uint64_t recorded) {
+        {
+            const std::scoped_lock lock(mutex);
+            facts.recorded_bytes = recorded;
+        }
+        if (liveSecondsSince(looked_at_disk) < kBetweenLooks_s) return true;
+        const std::string lack = lackOfRoom();
+        if (!lack.empty()) endFor(lack);
+        return lack.empty();
     }
 
     void noteGap(double gap_s) {
@@ -255,9 +294,11 @@ struct LiveStream::Receiver {
         last_time_us = frame.time_us;
         const bool room = with_picture < options.waiting_frames || facts.frames == 0;
         if (room) frame.gray = conversion.gray(picture);
+        if (room && options.with_colour) frame.colour = conversion.colour(picture);
         const std::scoped_lock lock(mutex);
         if (facts.frames == 0) info.size = size;
         frame.index = facts.frames++;
+        delivered = last_picture;  // what the decoder held back came then, too
         if (room) {
             ++with_picture;
         } else {
@@ -276,7 +317,8 @@ struct LiveStream::Receiver {
     mutable std::mutex mutex;  ///< of all below that both threads use
     std::condition_variable changed;
     VideoInfo info;
-    LiveFacts facts;  ///< written by the receiving thread alone
+    LiveFacts facts;                                     ///< written by the receiving thread alone
+    LiveClock::time_point delivered = LiveClock::now();  ///< when the last picture came
     std::deque<WaitingFrame> waiting;
     std::atomic<int> with_picture{0};  ///< of those waiting
     bool over = false;
@@ -286,6 +328,7 @@ struct LiveStream::Receiver {
     AVRational tick{1, 90000};
     PixelConversion conversion;
     LiveClock::time_point last_picture = LiveClock::now();
+    LiveClock::time_point looked_at_disk{};
     std::optional<std::int64_t> first_stamp_us;
     std::int64_t last_time_us = 0;
 
@@ -318,6 +361,7 @@ Frame LiveStream::read(FrameIndex index, bool) {
     receiver.waiting.pop_front();
     if (next.gray.empty()) {
         next.gray = receiver.last.gray;
+        next.colour = receiver.last.colour;
     } else {
         --receiver.with_picture;
     }
@@ -326,6 +370,7 @@ Frame LiveStream::read(FrameIndex index, bool) {
     frame.index = next.index;
     frame.time_us = next.time_us;
     frame.gray = std::move(next.gray);
+    frame.colour = std::move(next.colour);
     return frame;
 }
 
@@ -341,7 +386,9 @@ double LiveStream::backlog() const {
 
 LiveFacts LiveStream::facts() const {
     const std::scoped_lock lock(receiver_->mutex);
-    return receiver_->facts;
+    LiveFacts facts = receiver_->facts;
+    facts.silent_s = liveSecondsSince(receiver_->delivered);
+    return facts;
 }
 
 void LiveStream::finish() {

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "io/video/frame_source.h"
 
@@ -16,6 +18,10 @@ struct LiveOptions {
     double stall_s = 5;               ///< without a picture for so long, the connection is made anew
     double give_up_s = 30;            ///< without a picture for so long, the stream has ended
     int waiting_frames = 50;          ///< that may wait for the reader; further ones are left out
+    bool with_colour = false;         ///< frames carry colour, for whoever looks at them
+    /// With less space for the recording than this the stream ends, so that what was found can still be stored.
+    std::uint64_t least_free_bytes = 100'000'000;
+    std::vector<std::filesystem::path> also_written;  ///< what grows on other disks, which must keep that space, too
 };
 
 /// What became of a stream so far.
@@ -24,17 +30,15 @@ struct LiveFacts {
     int skipped = 0;     ///< of them, left out because the reader was behind
     int reconnects = 0;  ///< successful ones
     double longest_gap_s = 0;
-    std::string ended;  ///< why it ended, for people; empty: it goes on, or was ended by the reader
+    double silent_s = 0;               ///< since the last picture came, at the moment of asking
+    bool connected = true;             ///< false while the connection is made anew
+    std::uint64_t recorded_bytes = 0;  ///< of the recording
+    std::uint64_t free_bytes = 0;      ///< of the disk with the least space that is written to; 0: not known
+    std::string ended;                 ///< why it ended, for people; empty: it goes on, or was ended by the reader
 };
 
 /// Thrown by reading a frame that a live source will never have, because it has ended.
 struct StreamEnded {};
-
-/// Whether an input is the address of a live source: rtsp://…, udp://…, srt://… and what else names a protocol of the
-/// net.
-bool isLiveAddress(const std::string& input);
-/// Without name, password and what follows a "?", which may hold a passphrase: for messages and files.
-std::string shownAddress(const std::string& address);
 
 /// Video that comes as it is made, from the first key frame on. A thread of its own receives, records and decodes;
 /// frames must be read in their order. A frame that was left out is answered by the picture before it, in the same

@@ -3,8 +3,11 @@
 #include <gmock/gmock.h>
 
 #include <chrono>
+#include <map>
 #include <random>
 
+#include "core/error.h"
+#include "io/live/live_address.h"
 #include "io/numbered_video.h"
 #include "io/video/stream_copy.h"
 #include "support/live_sender.h"
@@ -259,6 +262,68 @@ TEST_F(LiveStreams, EndingItKeepsWhatCame) {
     EXPECT_LT(numbers.size(), 150U);
     stream.finish();
     EXPECT_EQ(recorded(), numbers);
+}
+
+TEST_F(LiveStreams, TheSpaceThatIsLeftIsToldAndTooLittleEndsIt) {
+    LiveOptions full = options();
+    full.least_free_bytes = UINT64_MAX;
+    try {
+        const LiveStream stream(address(), full, {});
+        FAIL() << "there is no such disk";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::output);
+        EXPECT_THAT(error.what(), HasSubstr("MB left; make room, or choose another place"));
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "recorded.ts"));
+    const LiveSender sender(port_, {{film("a.ts", 60), 1.5, 0.3}});
+    LiveStream stream(address(), options(), {});
+    numbersOf(stream);
+    EXPECT_GT(stream.facts().free_bytes, 0U);
+    EXPECT_EQ(stream.facts().recorded_bytes, std::filesystem::file_size(folder_ / "recorded.ts"));
+}
+
+TEST_F(LiveStreams, WhileNothingComesItSaysForHowLongAndThatItConnectsAgain) {
+    LiveOptions patient = options();
+    patient.give_up_s = 8;
+    const LiveSender sender(port_, {{film("a.ts", 40), 1, 0.3}});
+    LiveStream stream(address(), patient, {});
+    EXPECT_TRUE(stream.facts().connected);
+    test::waitUntil("the connection is lost", [&] { return !stream.facts().connected; });
+    EXPECT_GT(stream.facts().silent_s, 1);
+    EXPECT_TRUE(stream.facts().ended.empty());
+    stream.finish();
+}
+
+TEST_F(LiveStreams, FramesCarryColourWhereItIsWanted) {
+    LiveOptions coloured = options();
+    coloured.with_colour = true;
+    const LiveSender sender(port_, {{film("a.ts", 40), 1, 0.3}});
+    LiveStream stream(address(), coloured, {});
+    const Frame frame = stream.read(0, true);
+    EXPECT_EQ(frame.colour.type(), CV_8UC3);
+    EXPECT_EQ(frame.colour.size(), frame.gray.size());
+    stream.finish();
+}
+
+TEST(LiveAddresses, SayWhatIsWrongWithThemAndWhatTheyLookLike) {
+    for (const char* good : {"rtsp://camera/stream", "rtsp://me:secret@camera:554/s", "udp://@239.0.0.1:5000",
+                             "udp://:5000", "udp://0.0.0.0:5000?ttl=2", "srt://[::1]:9000", "http://camera/film.ts"})
+        EXPECT_EQ(faultOfAddress(good), "") << good;
+    const std::map<std::string, std::string> faults{{"", "an address is needed"},
+                                                    {"camera", "rtsp://camera"},
+                                                    {"/films/a.mp4", "Open video"},
+                                                    {"/dev/video0", "ffmpeg -f v4l2 -i /dev/video0"},
+                                                    {"rtsp:// camera", "no blanks"},
+                                                    {"file:///etc/passwd", "“file” is not known"},
+                                                    {"rtsp:///stream", "the name of the sender is missing"},
+                                                    {"http://:80/x", "the name of the sender is missing"},
+                                                    {"udp://239.0.0.1", "udp://239.0.0.1:5000"},
+                                                    {"udp://", "the port is missing"},
+                                                    {"srt://[::1]", "the port is missing"},
+                                                    {"tcp://camera:0", "“0” is no port"},
+                                                    {"tcp://camera:port", "“port” is no port"},
+                                                    {"rtsp://camera:99999/x", "“99999” is no port"}};
+    for (const auto& [address, fault] : faults) EXPECT_THAT(faultOfAddress(address), HasSubstr(fault)) << address;
 }
 
 TEST(LiveAddresses, AreThoseOfTheNet) {

@@ -13,6 +13,12 @@ void TimelineAxis::setFrameCount(int count) {
     showAll();
 }
 
+void TimelineAxis::extend(int count) {
+    const bool all = showsAll();
+    count_ = std::max(count_, count);
+    if (all) showAll();
+}
+
 void TimelineAxis::setSpan(double left, double width) {
     const bool all = showsAll();
     left_ = left;

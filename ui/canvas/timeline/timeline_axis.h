@@ -22,6 +22,8 @@ class TimelineAxis {
 
     /// Frames 0 … count − 1. Shows all of them when the count changed.
     void setFrameCount(int count);
+    /// The same frames and some behind them: all are shown if all were shown, else the same ones.
+    void extend(int count);
     /// Where frames are drawn, logical px.
     void setSpan(double left, double width);
 

@@ -54,6 +54,12 @@ void TimelineView::setSeams(std::vector<FrameIndex> frames) {
     update();
 }
 
+void TimelineView::extendTimes(std::vector<std::int64_t> times_us) {
+    times_us_ = std::move(times_us);
+    axis_.extend(static_cast<int>(times_us_.size()));
+    update();
+}
+
 void TimelineView::setFrames(std::vector<TimelineFrame> frames) {
     frames_ = std::move(frames);
     update();

@@ -29,6 +29,8 @@ class TimelineView : public QWidget {
     void setSeams(std::vector<FrameIndex> frames);
     /// What is to be said of a frame besides what it was found to be, in lines; empty: nothing.
     void setDescription(std::function<QString(FrameIndex)> describe) { describe_place_ = std::move(describe); }
+    /// The video has grown: the same frames and some behind them. Keeps all that was told of the former.
+    void extendTimes(std::vector<std::int64_t> times_us);
     /// All frames of a run, by index; may be shorter than the video.
     void setFrames(std::vector<TimelineFrame> frames);
     /// One more frame of a running run.

@@ -77,6 +77,12 @@ StatusFields::StatusFields(ProjectSession& session, QStatusBar& bar) : QObject(&
 }
 
 void StatusFields::showPreparing() {
+    if (session_.liveSource() != nullptr) {
+        work_->setText(tr("waiting for the live source …"));
+        bar_->setRange(0, 0);
+        showProgress();
+        return;
+    }
     work_->setText(session_.settings().gsd_m_per_px > 0 ? tr("starting the run …")
                                                         : tr("estimating the scale from the traffic …"));
     bar_->setRange(0, 0);
@@ -164,6 +170,13 @@ void StatusFields::showZoom(double zoom) {
 
 void StatusFields::showRun(const RunProgress& progress) {
     if (!session_.running()) return;
+    if (session_.liveSource() != nullptr) {
+        work_->setText(tr("live   %1 fps").arg(QLocale().toString(progress.frames_per_second, 'f', 1)));
+        work_->show();
+        bar_->hide();  // nobody knows how long it is
+        stop_->show();
+        return;
+    }
     const double share =
         progress.frames_total > 0 ? progress.frames_done / static_cast<double>(progress.frames_total) : 0;
     const int percent = static_cast<int>(share * 100);

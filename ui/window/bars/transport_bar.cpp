@@ -59,7 +59,7 @@ TransportBar::TransportBar(ProjectSession& session, const WindowActions& actions
     connect(&session_.playback(), &Playback::speedChanged, this, &TransportBar::showSpeed);
     showSpeed(session_.playback().speed());
     whenChanged(session_, this,
-                {{SessionChange::video, [this] { frame_->setRange(0, session_.lastFrame()); }},
+                {{{SessionChange::video, SessionChange::length}, [this] { frame_->setRange(0, session_.lastFrame()); }},
                  {{SessionChange::video, SessionChange::picture}, [this] {
                       if (!frame_->hasFocus()) frame_->setValue(session_.shownFrame());
                   }}});

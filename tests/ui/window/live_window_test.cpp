@@ -1,0 +1,190 @@
+#include <QAction>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSignalSpy>
+#include <QSpinBox>
+#include <QTest>
+
+#include "ui/session/session_support.h"
+#include "ui/support/live_film.h"
+#include "widgets/message_bar.h"
+#include "window/live/live_dialog.h"
+#include "window/live/live_strip.h"
+#include "window/live/live_text.h"
+#include "window/live/live_watching.h"
+#include "window/main_window.h"
+#include "workspace/window_actions.h"
+
+namespace eyrie::ui {
+
+using eyrie::test::LiveSender;
+using test::answer;
+using test::kPatience_ms;
+using test::press;
+using test::says;
+
+/// A live source through the window: what is asked, what is said, and that nothing is lost.
+class LiveWindowTest : public QObject {
+    Q_OBJECT
+
+    std::unique_ptr<test::OwnHome> home_;
+
+    static bool waitFor(const std::function<bool()>& condition) { return QTest::qWaitFor(condition, kPatience_ms); }
+    static void type(LiveDialog& dialog, const QString& field, const QString& text) {
+        auto* edit = dialog.findChild<QLineEdit*>(field);
+        edit->setText(text);
+        emit edit->textEdited(text);
+    }
+    static LiveDialog* askIn(MainWindow& window) {
+        window.resize(1280, 720);
+        window.show();
+        window.actions().watch_live->trigger();
+        return window.live().dialog();
+    }
+    /// Fills the dialog for a source and waits until something of it is shown.
+    bool watches(MainWindow& window, const test::LiveSource& source) {
+        LiveDialog* dialog = askIn(window);
+        if (dialog == nullptr) return false;
+        type(*dialog, QStringLiteral("live_address"), QString::fromStdString(source.request.address));
+        type(*dialog, QStringLiteral("live_project"), QString::fromStdString(source.request.project.string()));
+        type(*dialog, QStringLiteral("live_gsd"), QStringLiteral("0.25"));
+        dialog->findChild<QSpinBox*>(QStringLiteral("live_give_up"))->setValue(5);
+        return press(*dialog, QStringLiteral("Watch")) && waitFor([&] {
+                   return window.live().dialog() == nullptr && window.session().video() &&
+                          window.session().video()->frame_count >= 15;
+               });
+    }
+
+ private slots:
+    void init() { home_ = std::make_unique<test::OwnHome>(); }
+    void cleanup() { home_.reset(); }
+
+    void theDialogTellsWhatIsWrongWithAnAddress() {
+        MainWindow window;
+        LiveDialog* dialog = askIn(window);
+        QVERIFY(dialog != nullptr);
+        const auto can_watch = [&] {
+            for (const auto* button : dialog->findChildren<QPushButton*>())
+                if (button->text() == QStringLiteral("Watch")) return button->isEnabled();
+            return false;
+        };
+        type(*dialog, QStringLiteral("live_address"), QString());
+        QVERIFY(!can_watch());
+        for (const auto& [address, fault] :
+             std::map<QString, QString>{{QStringLiteral("clip.mp4"), QStringLiteral("rtsp://clip.mp4")},
+                                        {QStringLiteral("/films/clip.mp4"), QStringLiteral("Open video")},
+                                        {QStringLiteral("/dev/video0"), QStringLiteral("ffmpeg -f v4l2")},
+                                        {QStringLiteral("foo://camera"), QStringLiteral("is not known")},
+                                        {QStringLiteral("udp://239.0.0.1"), QStringLiteral("port is missing")}}) {
+            type(*dialog, QStringLiteral("live_address"), address);
+            QVERIFY2(says(*dialog, fault), qPrintable(address));
+            QVERIFY2(!can_watch(), qPrintable(address));
+        }
+        type(*dialog, QStringLiteral("live_address"), QStringLiteral("rtsp://camera/stream"));
+        QVERIFY(can_watch());
+    }
+
+    void theRecordingLiesBesideTheProjectUnlessAnotherPlaceIsChosen() {
+        MainWindow window;
+        LiveDialog* dialog = askIn(window);
+        const auto recording = [&] { return dialog->findChild<QLineEdit*>(QStringLiteral("live_recording"))->text(); };
+        QVERIFY(recording().endsWith(QStringLiteral(".ts")));
+        type(*dialog, QStringLiteral("live_project"), QStringLiteral("/here/patrol.eyrie"));
+        QCOMPARE(recording(), QStringLiteral("/here/patrol.ts"));
+        type(*dialog, QStringLiteral("live_recording"), QStringLiteral("/there/film.ts"));
+        type(*dialog, QStringLiteral("live_project"), QStringLiteral("/here/other.eyrie"));
+        QCOMPARE(recording(), QStringLiteral("/there/film.ts"));
+    }
+
+    void whatKeptTheSourceFromBeingWatchedIsToldWhereItWasTyped() {
+        MainWindow window;
+        LiveDialog* dialog = askIn(window);
+        type(*dialog, QStringLiteral("live_address"), QStringLiteral("tcp://127.0.0.1:1"));
+        type(*dialog, QStringLiteral("live_gsd"), QStringLiteral("much"));
+        QVERIFY(press(*dialog, QStringLiteral("Watch")));
+        QVERIFY(says(*dialog, QStringLiteral("GSD “much”")));
+        type(*dialog, QStringLiteral("live_gsd"), QString());
+        type(*dialog, QStringLiteral("live_project"), QString::fromStdString((*home_ / "absent/p.eyrie").string()));
+        QVERIFY(press(*dialog, QStringLiteral("Watch")));
+        QVERIFY(waitFor([&] { return says(*dialog, QStringLiteral("does not exist; make it first")); }));
+        type(*dialog, QStringLiteral("live_project"), QString::fromStdString((*home_ / "p.eyrie").string()));
+        QVERIFY(press(*dialog, QStringLiteral("Watch")));
+        QVERIFY(waitFor([&] { return says(*dialog, QStringLiteral("check the address and that it sends")); }));
+        QVERIFY2(press(*dialog, QStringLiteral("Cancel")), "it can be left");
+        QVERIFY(waitFor([&] { return window.live().dialog() == nullptr; }));
+    }
+
+    void theStripTellsHowTheSourceStandsAndStopsIt() {
+        MainWindow window;
+        const test::LiveSource source(*home_ / "");
+        const LiveSender sender(source.port, {{test::writeFilm(*home_ / "film.ts", 400), 16, 0.3}});
+        QVERIFY(!window.liveStrip().isVisible());
+        QVERIFY(watches(window, source));
+        QVERIFY(window.liveStrip().isVisible());
+        QVERIFY(waitFor([&] { return window.liveStrip().text().contains(QStringLiteral("recorded")); }));
+        QVERIFY(window.liveStrip().text().contains(QString::fromStdString(source.request.address)));
+        QVERIFY(press(window.liveStrip(), QStringLiteral("Stop watching")));
+        QVERIFY(waitFor([&] { return !window.session().running(); }));
+        QVERIFY(waitFor([&] { return !window.liveStrip().isVisible(); }));
+        QVERIFY(waitFor([&] { return window.session().runData() && !window.session().runData()->record.live; }));
+        QVERIFY(window.session().runs().back().frames_done >= 15);
+    }
+
+    void closingTheWindowAsksAndKeepsAll() {
+        const test::LiveSource source(*home_ / "");
+        const LiveSender sender(source.port, {{test::writeFilm(*home_ / "film.ts", 400), 16, 0.3}});
+        {
+            MainWindow window;
+            QVERIFY(watches(window, source));
+            window.close();
+            QVERIFY2(window.isVisible(), "it asks first");
+            QVERIFY(answer(window, QStringLiteral("Stop watching")));
+            QVERIFY(waitFor([&] { return !window.isVisible(); }));
+        }
+        ProjectFile file = ProjectFile::open(source.request.project, ProjectFile::Mode::read_only);
+        const auto runs = RunStore(file).runs();
+        QCOMPARE(runs.size(), std::size_t(1));
+        QCOMPARE(runs[0].state, RunState::finished);
+        QVERIFY(runs[0].frames_done >= 15);
+    }
+
+    void textsTellWhatIsLostAndWhatIsGivenUp() {
+        LiveStatus status;
+        status.load.facts.frames = 1000;
+        status.load.facts.recorded_bytes = 12'300'000;
+        status.load.facts.free_bytes = 38'000'000'000;
+        QLocale::setDefault(QLocale(QLocale::English));
+        QCOMPARE(liveStateText(status, 30), QStringLiteral("receiving"));
+        QCOMPARE(liveLoadText(status), QStringLiteral("keeps pace"));
+        QCOMPARE(liveRecordingText(status.load.facts), QStringLiteral("12.3 MB recorded, 38.0 GB left"));
+        QVERIFY(moodOf(status) == LiveMood::good);
+        status.behind_s = 1.5;
+        status.lighter = true;
+        status.load.facts.skipped = 12;
+        status.load.fewer_corners = 40;
+        QCOMPARE(liveStateText(status, 30), QStringLiteral("receiving, 1.5 s behind"));
+        QCOMPARE(liveLoadText(status), QStringLiteral("fewer corners now; 12 of 1,000 frames left out"));
+        status.lighter = false;
+        QVERIFY(liveLoadText(status).startsWith(QStringLiteral("40 of 1,000 frames with fewer corners")));
+        status.load.facts.silent_s = 4;
+        QCOMPARE(liveStateText(status, 30), QStringLiteral("no picture for 4.0 s"));
+        QVERIFY(moodOf(status) == LiveMood::waiting);
+        status.load.facts.connected = false;
+        QCOMPARE(liveStateText(status, 30),
+                 QStringLiteral("connection lost 4.0 s ago; connecting again, for 30.0 s at most"));
+        QVERIFY(moodOf(status) == LiveMood::bad);
+        status.load.facts.reconnects = 2;
+        QVERIFY(liveLoadText(status).contains(QStringLiteral("connected again 2×")));
+        QVERIFY(!isNearlyFull(status.load.facts));
+        status.load.facts.free_bytes = 500'000'000;
+        QVERIFY(isNearlyFull(status.load.facts));
+        QCOMPARE(liveRecordingText(status.load.facts), QStringLiteral("12.3 MB recorded, only 500.0 MB left"));
+        status.load.facts.free_bytes = 0;
+        QCOMPARE(liveRecordingText(status.load.facts), QStringLiteral("12.3 MB recorded"));
+    }
+};
+
+}  // namespace eyrie::ui
+
+QTEST_MAIN(eyrie::ui::LiveWindowTest)
+#include "live_window_test.moc"

@@ -1,0 +1,122 @@
+#include "window/live/live_strip.h"
+
+#include <QEvent>
+#include <QHBoxLayout>
+#include <QIcon>
+#include <QLabel>
+#include <QToolButton>
+
+#include "io/live/live_address.h"
+#include "widgets/theme_colours.h"
+#include "widgets/wiring.h"
+
+namespace eyrie::ui {
+namespace {
+
+constexpr int kRefresh_ms = 250;
+constexpr int kWidestAddress_px = 260;
+
+QColor hueOfMood(LiveMood mood) {
+    switch (mood) {
+        case LiveMood::good:
+            return {0, 158, 115};
+        case LiveMood::waiting:
+            return {230, 159, 0};
+        case LiveMood::bad:
+            break;
+    }
+    return {213, 45, 45};
+}
+
+QLabel* liveField(QHBoxLayout& row, QWidget* parent) {
+    auto* label = new QLabel(parent);
+    label->setTextFormat(Qt::PlainText);
+    label->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    label->setFocusPolicy(Qt::NoFocus);
+    label->setMinimumWidth(1);  // of a small window the texts give way, not the window
+    row.addWidget(label);
+    return label;
+}
+
+}  // namespace
+
+LiveStrip::LiveStrip(ProjectSession& session, QWidget* parent)
+    : QFrame(parent), session_(session), again_(kRefresh_ms, [this] { refresh(); }) {
+    setFrameShape(QFrame::StyledPanel);
+    setAccessibleName(tr("Live source"));
+    auto* row = new QHBoxLayout(this);
+    row->setContentsMargins(8, 3, 4, 3);
+    row->setSpacing(18);
+    dot_ = new QLabel(QStringLiteral("●"), this);
+    row->addWidget(dot_);
+    address_ = liveField(*row, this);
+    state_ = liveField(*row, this);
+    load_ = liveField(*row, this);
+    row->addStretch(1);
+    recording_ = liveField(*row, this);
+    stop_ = new QToolButton(this);
+    stop_->setText(tr("Stop watching"));
+    stop_->setIcon(QIcon::fromTheme(QStringLiteral("media-playback-stop")));
+    stop_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+    stop_->setToolTip(tr("Ends recording and run; what was recorded and found is kept"));
+    row->addWidget(stop_);
+    bindCommands(this, {{stop_, [this] {
+                             session_.stopRun();
+                             refresh();
+                         }}});
+    whenChanged(
+        session_, this,
+        {{{SessionChange::run_preparing, SessionChange::run_started, SessionChange::run_ended}, [this] { follow(); }}});
+    hide();
+}
+
+void LiveStrip::follow() {
+    const bool shown = session_.liveSource() != nullptr && session_.ownRun() != nullptr;
+    setVisible(shown);
+    if (!shown) {
+        again_.stop();
+        return;
+    }
+    const QString address = QString::fromStdString(shownAddress(session_.liveSource()->address));
+    address_->setText(address_->fontMetrics().elidedText(address, Qt::ElideMiddle, kWidestAddress_px));
+    address_->setToolTip(
+        tr("%1, recorded in %2")
+            .arg(address, QString::fromStdString(session_.video() ? session_.video()->path.string() : std::string())));
+    refresh();
+    again_.start();
+}
+
+void LiveStrip::refresh() {
+    const auto status = session_.liveStatus();
+    if (!status || session_.liveSource() == nullptr) return;
+    const LiveFacts& facts = status->load.facts;
+    stop_->setEnabled(!session_.stopping());
+    state_->setText(
+        session_.stopping()
+            ? tr("stopping: what came before is still worked on, %1 behind").arg(durationText(status->behind_s))
+            : liveStateText(*status, session_.liveSource()->stream.give_up_s));
+    load_->setText(liveLoadText(*status));
+    load_->setToolTip(
+        tr("Where the chain is slower than the source, it takes fewer corners first; where that is not "
+           "enough, frames are left out of it. The recording has all of them."));
+    recording_->setText(liveRecordingText(facts));
+    recording_->setToolTip(isNearlyFull(facts) ? tr("The source is ended before the disk is full.") : QString());
+    applyMood(moodOf(*status));
+}
+
+void LiveStrip::applyMood(LiveMood mood) {
+    QPalette coloured = palette();
+    coloured.setColor(QPalette::WindowText, hueOfMood(mood));
+    dot_->setPalette(coloured);
+}
+
+void LiveStrip::changeEvent(QEvent* event) {
+    QFrame::changeEvent(event);
+    if (event->type() == QEvent::PaletteChange && isVisible()) refresh();
+}
+
+QString LiveStrip::text() const {
+    return QStringList{address_->text(), state_->text(), load_->text(), recording_->text()}.join(QStringLiteral(" | "));
+}
+
+}  // namespace eyrie::ui

@@ -1,0 +1,72 @@
+#include "window/live/live_text.h"
+
+#include <QCoreApplication>
+#include <QLocale>
+#include <QStringList>
+
+#include "widgets/display_text.h"
+
+namespace eyrie::ui {
+namespace {
+
+constexpr double kSilent_s = 2;                        ///< from here on people are told that nothing comes
+constexpr double kInPace_s = 0.3;                      ///< what waits for a shorter time is not worth a word
+constexpr std::uint64_t kLittleSpace = 2'000'000'000;  ///< bytes: some minutes to an hour
+
+QString tr(const char* text) {
+    return QCoreApplication::translate("LiveText", text);
+}
+
+QString bytesText(std::uint64_t bytes) {
+    return QLocale().formattedDataSize(static_cast<qint64>(bytes), 1, QLocale::DataSizeSIFormat);
+}
+
+}  // namespace
+
+LiveMood moodOf(const LiveStatus& status) {
+    if (!status.load.facts.connected) return LiveMood::bad;
+    return status.load.facts.silent_s > kSilent_s ? LiveMood::waiting : LiveMood::good;
+}
+
+QString liveStateText(const LiveStatus& status, double give_up_s) {
+    const LiveFacts& facts = status.load.facts;
+    if (!facts.ended.empty()) return tr("ended: %1").arg(QString::fromStdString(facts.ended));
+    const QString since = durationText(facts.silent_s);
+    switch (moodOf(status)) {
+        case LiveMood::bad:
+            return tr("connection lost %1 ago; connecting again, for %2 at most").arg(since, durationText(give_up_s));
+        case LiveMood::waiting:
+            return tr("no picture for %1").arg(since);
+        case LiveMood::good:
+            break;
+    }
+    if (status.behind_s < kInPace_s) return tr("receiving");
+    return tr("receiving, %1 behind").arg(durationText(status.behind_s));
+}
+
+QString liveLoadText(const LiveStatus& status) {
+    const LiveLoad& load = status.load;
+    const QLocale locale;
+    const QString of = locale.toString(load.facts.frames);
+    QStringList parts;
+    if (status.lighter)
+        parts << tr("fewer corners now");
+    else if (load.fewer_corners > 0)
+        parts << tr("%1 of %2 frames with fewer corners").arg(locale.toString(load.fewer_corners), of);
+    if (load.facts.skipped > 0) parts << tr("%1 of %2 frames left out").arg(locale.toString(load.facts.skipped), of);
+    if (load.facts.reconnects > 0) parts << tr("connected again %1×").arg(locale.toString(load.facts.reconnects));
+    return parts.isEmpty() ? tr("keeps pace") : parts.join(QStringLiteral("; "));
+}
+
+QString liveRecordingText(const LiveFacts& facts) {
+    const QString recorded = tr("%1 recorded").arg(bytesText(facts.recorded_bytes));
+    if (facts.free_bytes == 0) return recorded;
+    return isNearlyFull(facts) ? tr("%1, only %2 left").arg(recorded, bytesText(facts.free_bytes))
+                               : tr("%1, %2 left").arg(recorded, bytesText(facts.free_bytes));
+}
+
+bool isNearlyFull(const LiveFacts& facts) {
+    return facts.free_bytes > 0 && facts.free_bytes < kLittleSpace;
+}
+
+}  // namespace eyrie::ui

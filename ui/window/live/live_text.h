@@ -1,0 +1,24 @@
+#pragma once
+
+#include <QString>
+
+#include "chain/live/live_run.h"
+
+/// How a live source stands, for people.
+namespace eyrie::ui {
+
+enum class LiveMood { good, waiting, bad };
+
+/// How much a person has to worry about the source itself.
+LiveMood moodOf(const LiveStatus& status);
+/// "receiving, 0.4 s behind", "no picture for 4 s", "connection lost, connecting again since 0:12". `give_up_s`: after
+/// how long without a picture it is given up.
+QString liveStateText(const LiveStatus& status, double give_up_s);
+/// What was given up to keep pace: "keeps pace", "fewer corners now; 12 of 1,000 frames left out".
+QString liveLoadText(const LiveStatus& status);
+/// "12.3 MB recorded, 38 GB left".
+QString liveRecordingText(const LiveFacts& facts);
+/// Whether the disk will soon be full.
+bool isNearlyFull(const LiveFacts& facts);
+
+}  // namespace eyrie::ui
