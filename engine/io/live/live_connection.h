@@ -22,6 +22,8 @@ class LiveConnection {
     const AVStream& videoStream() const { return *demuxer_->streams[video_]; }
     /// The next packet of any track; false when none came for `seconds`, at the end and when stopped.
     bool read(AVPacket& packet, double seconds);
+    /// Whether the last packet came when waiting had been given up: the demuxer had held it back until then.
+    bool wasHeldBack() const { return std::chrono::steady_clock::now() >= limit_; }
     /// Whether all of a source that has an end, such as a file on the net, was read.
     bool hasEnded() const { return has_ended_; }
 

@@ -196,7 +196,7 @@ struct LiveStream::Receiver {
             const bool picture = packet->stream_index == connection.video();
             const bool recorded =
                 recording.write(*packet, connection.demuxer(), static_cast<std::int64_t>(gap * 1'000'000));
-            const bool good = !recorded || !picture || decode(*codec, packet.get());
+            const bool good = !recorded || !picture || decode(*codec, packet.get(), connection.wasHeldBack());
             av_packet_unref(packet.get());
             if (!good) return false;
             full = !hasRoom(recording.bytes());
@@ -204,7 +204,7 @@ struct LiveStream::Receiver {
             if (stalls(begin)) break;
         }
         // What the decoder holds back still counts: the recording has it.
-        if (!decode(*codec, nullptr) || full || ending.stop_requested()) return false;
+        if (!decode(*codec, nullptr, true) || full || ending.stop_requested()) return false;
         if (connection.hasEnded()) endFor("the source has an end; download it and run over the file");
         return !connection.hasEnded();
     }
@@ -266,13 +266,12 @@ struct LiveStream::Receiver {
         return false;
     }
 
-    /// False when the stream cannot be gone on with.
-    bool decode(AVCodecContext& codec, const AVPacket* packet) {
+    /// False when the stream cannot be gone on with. `held_back`: it had come before.
+    bool decode(AVCodecContext& codec, const AVPacket* packet, bool held_back) {
         if (avcodec_send_packet(&codec, packet) < 0) return true;  // damaged: the next ones may be better
         const libav::Picture picture(av_frame_alloc());
         while (avcodec_receive_frame(&codec, picture.get()) >= 0) {
-            // What comes out at the end was there before.
-            if (packet != nullptr) last_picture = LiveClock::now();
+            if (!held_back) last_picture = LiveClock::now();
             const bool good = deliver(*picture);
             av_frame_unref(picture.get());
             if (!good) return false;
