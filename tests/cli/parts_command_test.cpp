@@ -214,8 +214,8 @@ TEST_F(PartsCommand, clockTimesShowWhatWasNotRecordedBetweenTwoParts) {
         call({"export", "--project", at("p.eyrie"), "--run", "1", "--format", "tracks-csv", "--out", at("tracks.csv")});
     ASSERT_EQ(exported.exit_code, 0) << exported.errors;
     const std::string tracks = textOf(at("tracks.csv"));
-    EXPECT_THAT(tracks, HasSubstr(",31,1.240000,2026-11-21T08:00:01.240000Z,"));
-    EXPECT_THAT(tracks, HasSubstr(",32,1.280000,2026-11-21T09:00:00.000000Z,"));
+    EXPECT_THAT(tracks, HasSubstr(",31,1.24,2026-11-21T08:00:01.240000Z,"));
+    EXPECT_THAT(tracks, HasSubstr(",32,1.28,2026-11-21T09:00:00.000000Z,"));
 }
 
 TEST_F(PartsCommand, metadataAreLookedForInAllParts) {
