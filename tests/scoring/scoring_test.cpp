@@ -148,7 +148,7 @@ TEST_F(ScoringTest, errorsOfATableOfNumbersAreToldByTheirLine) {
         // Whatever digit comes first, behind empty lines and blanks.
         for (const std::string first : {"0", "1", "5", "9"}) {
             const std::string row = first + ",1,41.5,here,20,10,1\n";
-            EXPECT_THAT(messageOf(row, as_result), HasSubstr("broken.txt:1:10: \"here\" is not a number")) << row;
+            EXPECT_THAT(messageOf(row, as_result), HasSubstr("broken.txt:1:")) << row;
             EXPECT_THAT(messageOf("\n \t\r\n \t" + row, as_result), HasSubstr("broken.txt:3:")) << row;
         }
         for (const std::string other : {"about,1,41.5\n", "12 cars\n", "-1,1,41.5,here\n", ":1,2\n", "\n\n", ""})
