@@ -1,6 +1,7 @@
 #include "core/text.h"
 
 #include <algorithm>
+#include <cctype>
 
 namespace eyrie {
 namespace {
@@ -38,6 +39,12 @@ std::string validUtf8(std::string_view text) {
 
 std::string displayText(const std::filesystem::path& path) {
     return validUtf8(path.native());
+}
+
+bool hasEnding(const std::filesystem::path& path, std::string_view ending) {
+    const std::string own = path.extension().string();
+    return std::equal(own.begin(), own.end(), ending.begin(), ending.end(),
+                      [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); });
 }
 
 std::string markupEscaped(std::string_view text) {

@@ -15,6 +15,9 @@ std::string validUtf8(std::string_view text);
 /// A file's name for people and for files: names may hold any bytes, what is shown or exchanged must be UTF-8.
 std::string displayText(const std::filesystem::path& path);
 
+/// Whether a file's name ends so (".ts"), in small letters or capitals.
+bool hasEnding(const std::filesystem::path& path, std::string_view ending);
+
 /// Text made safe between tags and in attributes of XML, HTML and SVG; characters that XML forbids become "_",
 /// bytes that are not UTF-8 U+FFFD.
 std::string markupEscaped(std::string_view text);

@@ -9,8 +9,8 @@ namespace eyrie {
 
 /// SHA-256 of a file's bytes as 64 hexadecimal digits, as `sha256sum` prints it; of a folder of images, and of a list
 /// of parts (video/parts/part_list.h), that of their names (each ended by a zero byte) and bytes, in the order of the
-/// frames. `progress` (0 … 1) may be empty. Empty when
-/// `stop` was requested. Throws Error(input) for what cannot be read.
+/// frames. `progress` (0 … 1) may be empty. Empty when `stop` was requested. Throws Error(input) for what cannot be
+/// read.
 std::string sha256Of(const std::filesystem::path& path, const std::function<void(double)>& progress = {},
                      const std::stop_token& stop = {});
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/scene_name.h"
 #include "scene/painting/scene_renderer.h"
 #include "scene/towns/scene_preset.h"
 
@@ -12,7 +13,7 @@ class SceneSource : public FrameSource {
  public:
     explicit SceneSource(SceneDescription description) : renderer_(std::move(description)) {
         const SceneDescription& scene = renderer_.scene();
-        info_.path = "scene:" + scene.name;
+        info_.path = sceneName(scene.name);
         info_.size = scene.image_size;
         info_.frame_count = scene.frame_count;
         info_.frame_rate_hz = scene.frame_rate_hz;

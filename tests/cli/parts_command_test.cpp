@@ -1,6 +1,5 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <csignal>
 #include <fstream>
@@ -14,6 +13,7 @@
 #include "support/moving_scene.h"
 #include "support/places.h"
 #include "support/process.h"
+#include "support/wait_until.h"
 
 namespace eyrie::parts_command_test {
 namespace {
@@ -119,7 +119,7 @@ TEST_F(PartsCommand, theListIsKeptBesideTheProjectAndIsTheVideoOfLaterRuns) {
 
 TEST_F(PartsCommand, aRunThatWasKilledIsGoneOnWithOverTheSeams) {
     test::Process process(runOfParts({"--fps", "25"}));
-    while (framesDone() < 28) usleep(2000);
+    test::waitUntil("28 frames are done", [&] { return framesDone() >= 28; });
     kill(process.pid(), SIGKILL);
     process.wait();
     const auto resumed = call({"run", "--resume", "--project", at("p.eyrie"), "--tracks", at("parts.csv"), "--quiet"});

@@ -1,6 +1,5 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <csignal>
 #include <fstream>
@@ -15,6 +14,7 @@
 #include "support/places.h"
 #include "support/process.h"
 #include "support/run_rows.h"
+#include "support/wait_until.h"
 
 namespace eyrie::resume_command_test {
 namespace {
@@ -71,7 +71,7 @@ class RunAgain : public testing::Test {
     /// Sends a signal when at least so many frames are stored.
     int interrupted(const std::vector<std::string>& arguments, const std::string& project, int signal, int frames) {
         test::Process process(program(arguments));
-        while (framesDone(project) < frames) usleep(2000);
+        test::waitUntil("frames are done", [&] { return framesDone(project) >= frames; });
         kill(process.pid(), signal);
         return process.wait().exit_code;
     }

@@ -1,7 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <unistd.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -13,6 +12,7 @@
 #include "support/moving_scene.h"
 #include "support/places.h"
 #include "support/process.h"
+#include "support/wait_until.h"
 
 namespace eyrie::sweep_test {
 namespace {
@@ -231,7 +231,7 @@ TEST_F(Sweep, KeepsWhatIsDoneWhenKilledAndDoesOnlyTheRest) {
     };
     const auto interrupted = [&](int signal, int at_least) {
         test::Process process(arguments);
-        while (pointsDone() < at_least) usleep(20000);
+        test::waitUntil("points are done", [&] { return pointsDone() >= at_least; });
         kill(process.pid(), signal);
         return process.wait().exit_code;
     };
@@ -257,7 +257,7 @@ TEST_F(Sweep, OnlyOneProgramWorksOnASweep) {
     arguments.insert(arguments.begin(), test::programPath("eyrie-cli"));
     test::Process working(arguments);
     const auto locked = [&] { return std::filesystem::exists(at("l.eyrie.sweep-1")); };
-    while (!locked()) usleep(10000);
+    test::waitUntil("the sweep is locked", locked);
     const auto second = sweep(axis);
     EXPECT_EQ(second.exit_code, 5);
     EXPECT_THAT(second.errors, HasSubstr("is being worked on by process " + std::to_string(working.pid())));

@@ -23,6 +23,11 @@ TEST(Text, BytesThatAreNotUtf8AreReplacedOneByOne) {
     EXPECT_EQ(markupEscaped("a\xE9<"), "a" + replacement + "&lt;");
 }
 
+TEST(Text, EndingsOfNamesAreThoseBehindTheLastDot) {
+    for (const char* name : {"a.ts", "/x.y/A.TS", "rec.001.Ts"}) EXPECT_TRUE(hasEnding(name, ".ts")) << name;
+    for (const char* name : {"a.tsx", "ats", ".ts", "a.ts/b", "a.t", ""}) EXPECT_FALSE(hasEnding(name, ".ts")) << name;
+}
+
 TEST(Text, DistanceCountsSwapsOnce) {
     EXPECT_EQ(editDistance("run", "run"), 0u);
     EXPECT_EQ(editDistance("rnu", "run"), 1u);

@@ -321,8 +321,7 @@ void ProjectSession::showWithoutVideo(const SequenceRecord& sequence, std::optio
     emit videoNotFound(message);
 }
 
-// ---- live sources: the video that is being recorded
-// ------------------------------------------------------------------
+// ---- live sources: the video that is being recorded ----------------------------------------------------------------
 
 void ProjectSession::adoptLive(const RunRecord& record) {
     cancelOpening();

@@ -4,6 +4,7 @@
 #include <QLocale>
 #include <cmath>
 
+#include "core/text.h"
 #include "core/time_text.h"
 
 namespace eyrie::ui {
@@ -57,6 +58,11 @@ QString durationText(double seconds) {
         return QStringLiteral("%1:%2").arg(whole / 60).arg(rest, 4, zero);
     }
     return QStringLiteral("%1:%2:%3").arg(whole / 3600).arg(whole / 60 % 60, 2, 10, zero).arg(whole % 60, 2, 10, zero);
+}
+
+QString withEnding(const QString& path, const char* ending) {
+    if (path.isEmpty() || hasEnding(path.toStdString(), ending)) return path;
+    return path + QString::fromLatin1(ending);
 }
 
 QString leftText(double seconds) {

@@ -35,6 +35,9 @@ QString shownName(TrackClass track_class);
 /// time.
 QString localTimeText(const std::string& utc);
 
+/// The path of a file as a person named it, with the ending (".ts") that it should have; an empty one stays empty.
+QString withEnding(const QString& path, const char* ending);
+
 /// How much longer something takes, rounded up to seconds: "0:05 left".
 QString leftText(double seconds);
 

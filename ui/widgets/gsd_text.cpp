@@ -1,6 +1,7 @@
 #include "widgets/gsd_text.h"
 
 #include <QLocale>
+#include <QObject>
 #include <cmath>
 
 #include "core/values/scene_scale.h"
@@ -27,6 +28,10 @@ std::optional<double> gsdFromText(const QString& text) {
     const auto value = numberFromText(text);
     if (!value || !whyNotAGsd(*value).empty()) return std::nullopt;
     return value;
+}
+
+QString unknownGsdText() {
+    return QObject::tr("unknown: speeds in px/frame");
 }
 
 }  // namespace eyrie::ui

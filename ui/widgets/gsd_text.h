@@ -12,4 +12,7 @@ std::optional<double> numberFromText(const QString& text);
 /// whyNotAGsd() (core/values/scene_scale.h).
 std::optional<double> gsdFromText(const QString& text);
 
+/// What an empty field for it says.
+QString unknownGsdText();
+
 }  // namespace eyrie::ui

@@ -25,9 +25,9 @@ QColor hueOf(MessageKind kind) {
         case MessageKind::info:
             return {0, 114, 178};
         case MessageKind::warning:
-            return {230, 159, 0};
+            return signalColour(Signal::warning);
         case MessageKind::error:
-            return {213, 45, 45};
+            return signalColour(Signal::bad);
     }
     return {};
 }

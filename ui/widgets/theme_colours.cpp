@@ -35,6 +35,22 @@ QColor quietText(const QPalette& palette) {
     return blend(palette.color(QPalette::Window), palette.color(QPalette::WindowText), 0.7);
 }
 
+QColor faultText(const QPalette& palette) {
+    return isDark(palette) ? QColor(255, 128, 128) : QColor(176, 0, 32);
+}
+
+QColor signalColour(Signal signal) {
+    switch (signal) {
+        case Signal::good:
+            return {0, 158, 115};
+        case Signal::warning:
+            return {230, 159, 0};
+        case Signal::bad:
+            break;
+    }
+    return {213, 45, 45};
+}
+
 QColor stageColour(Stage stage, const QPalette& palette) {
     const QColor colour = QColor::fromRgb(kStageColours[static_cast<std::size_t>(stage)]);
     return isDark(palette) ? colour.lighter(118) : colour;

@@ -13,6 +13,13 @@ QColor blend(const QColor& ground, const QColor& over, double share);
 bool isDark(const QPalette& palette);
 /// Text of lesser weight that still reads on the palette's ground.
 QColor quietText(const QPalette& palette);
+/// Text that tells what is wrong, on the palette's window.
+QColor faultText(const QPalette& palette);
+
+/// How things stand.
+enum class Signal { good, warning, bad };
+/// Its colour, told apart on light and dark grounds.
+QColor signalColour(Signal signal);
 /// The colour of a stage in charts, told apart from its neighbours on light and dark grounds.
 QColor stageColour(Stage stage, const QPalette& palette);
 

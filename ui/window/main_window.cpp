@@ -114,6 +114,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     status_->setClock({[this](FrameIndex frame) { return earth_->earth().clockText(frame); },
                        [this] { return earth_->earth().clockOrigin(); }});
     whenAny(&earth_->earth(), status_, &StatusFields::showPlace, &VideoEarth::changed);
+    whenAny(&earth_->earth(), status_, &StatusFields::showClock, &VideoEarth::changed);
     labelling_ = new LabelWorkspace(
         {session_, *canvas_, *timeline_, *label_rows_, *messages_, *actions_, *docks_, keys_, *this});
     evaluation_->join(*labelling_);

@@ -10,6 +10,7 @@
 #include "core/project_name.h"
 #include "session/project/earlier_states.h"
 #include "store/health/file_check.h"
+#include "widgets/display_text.h"
 #include "widgets/message_bar.h"
 #include "widgets/wiring.h"
 #include "window/bars/run_bar.h"
@@ -151,11 +152,10 @@ void OpenedFiles::openRecent(const RecentProject& project) {
 
 QString OpenedFiles::chosenTarget(const QString& title) {
     // No file that is there is replaced, so nobody needs to be asked about that.
-    QString path =
+    const QString path =
         QFileDialog::getSaveFileName(&parts_.window, title, text(session_.project()), tr("Eyrie projects (*.eyrie)"),
                                      nullptr, QFileDialog::DontConfirmOverwrite);
-    if (!path.isEmpty() && !hasProjectName(path.toStdString())) path += QString::fromLatin1(kProjectEnding);
-    return path;
+    return withEnding(path, kProjectEnding);
 }
 
 void OpenedFiles::saveAs() {

@@ -40,7 +40,7 @@ QPalette lightPalette() {
     palette.setColor(QPalette::Highlight, QColor(30, 120, 190));
     palette.setColor(QPalette::HighlightedText, Qt::white);
     palette.setColor(QPalette::Link, QColor(20, 100, 170));
-    for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText})
+    for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText, QPalette::PlaceholderText})
         palette.setColor(QPalette::Disabled, role, QColor(150, 155, 160));
     return palette;
 }
@@ -67,7 +67,7 @@ QPalette darkPalette() {
     palette.setColor(QPalette::Highlight, QColor(61, 150, 220));
     palette.setColor(QPalette::HighlightedText, QColor(16, 18, 20));
     palette.setColor(QPalette::Link, QColor(100, 180, 240));
-    for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText})
+    for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText, QPalette::PlaceholderText})
         palette.setColor(QPalette::Disabled, role, QColor(120, 127, 134));
     return palette;
 }

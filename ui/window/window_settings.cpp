@@ -5,13 +5,15 @@
 #include <QFileInfo>
 #include <QPointF>
 #include <QStandardPaths>
+#include <string>
+
+#include "core/scene_name.h"
 
 namespace eyrie::ui {
 
 namespace {
 constexpr int kMostRecent = 12;
 const QString kRecent = QStringLiteral("recent_projects");
-const QString kScene = QStringLiteral("scene:");
 const QString kGeometry = QStringLiteral("window/geometry");
 
 /// Hidden there, a project's own name tells nobody anything.
@@ -29,12 +31,13 @@ QString groupOf(const std::filesystem::path& project) {
 }  // namespace
 
 QString RecentProject::name() const {
-    if (video.startsWith(kScene)) return QCoreApplication::translate("RecentProject", "%1 scene").arg(video.mid(6));
+    if (const std::string named = video.toStdString(); isScene(named))
+        return QCoreApplication::translate("RecentProject", "%1 scene").arg(QString::fromStdString(sceneOf(named)));
     return QFileInfo(liesInDataFolder(project) ? video : project).fileName();
 }
 
 QString RecentProject::folder() const {
-    if (video.startsWith(kScene)) return {};
+    if (isScene(video.toStdString())) return {};
     return QFileInfo(liesInDataFolder(project) ? video : project).path();
 }
 

@@ -11,15 +11,6 @@
 #include "store/labels/annotation_store.h"
 
 namespace eyrie::cli {
-namespace {
-
-const std::string kScenePrefix = "scene:";
-
-}  // namespace
-
-bool isScene(const std::string& input) {
-    return input.starts_with(kScenePrefix);
-}
 
 double rememberedRate(const std::filesystem::path& project, const std::string& input) {
     std::error_code failure;
@@ -32,7 +23,7 @@ double rememberedRate(const std::filesystem::path& project, const std::string& i
 
 std::unique_ptr<FrameSource> openInput(const std::string& input, double frame_rate_hz, std::stop_token stop,
                                        double remembered_rate_hz) {
-    if (isScene(input)) return openScene(input.substr(kScenePrefix.size()));
+    if (isScene(input)) return openScene(sceneOf(input));
     SourceOptions options;
     options.frame_rate_hz = frame_rate_hz;
     options.remembered_rate_hz = remembered_rate_hz;

@@ -6,12 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "core/scene_name.h"
 #include "io/video/frame_source.h"
 
 namespace eyrie::cli {
-
-/// Whether an input is the name of a built-in scene and not a path.
-bool isScene(const std::string& input);
 
 /// Opens a video file, a folder of images, or a built-in scene ("scene:seq1"). Shows progress while a long video is
 /// indexed. Throws Error(input | parameter).

@@ -10,7 +10,7 @@ namespace {
 
 ClipFrames::Open opener(const std::string& sequence, double frame_rate_hz, double remembered_rate_hz = 0) {
     return [sequence, frame_rate_hz, remembered_rate_hz]() -> std::unique_ptr<FrameSource> {
-        if (isScene(sequence)) return openScene(sequence.substr(6));
+        if (isScene(sequence)) return openScene(sceneOf(sequence));
         SourceOptions options;
         options.frame_rate_hz = frame_rate_hz;
         options.remembered_rate_hz = remembered_rate_hz;

@@ -146,8 +146,7 @@ std::filesystem::path projectPath(const RunArguments& arguments) {
     if (!arguments.project.empty()) return arguments.project;
     std::string input = arguments.inputs.empty() ? "" : arguments.inputs.front();
     if (arguments.inputs.size() > 1) input = partListName({arguments.inputs.begin(), arguments.inputs.end()});
-    input = input.substr(input.rfind("scene:", 0) == 0 ? 6 : 0);
-    const auto stem = std::filesystem::path(input).lexically_normal().stem().string();
+    const auto stem = std::filesystem::path(sceneOf(input)).lexically_normal().stem().string();
     return (stem.empty() || stem == "." || stem == ".." ? "video" : stem) + kProjectEnding;
 }
 

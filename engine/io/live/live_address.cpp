@@ -70,7 +70,7 @@ std::string faultOfAddress(const std::string& address) {
     const std::string scheme = address.substr(0, end);
     if (!isLiveAddress(address))
         return "“" + scheme +
-               "” is not known; addresses begin with rtsp://, udp://, rtp://, srt://, tcp://, http:// or " + "rtmp://";
+               "” is not known; addresses begin with rtsp://, udp://, rtp://, srt://, tcp://, http:// or rtmp://";
     const std::string place = hostAndPort(address);
     // Those that are received without asking anybody need a port alone.
     if ((place.empty() || place.front() == ':') && !isOneOf(scheme, {"udp", "rtp", "srt"}))

@@ -157,7 +157,7 @@ class LiveWindowTest : public QObject {
         QCOMPARE(liveStateText(status, 30), QStringLiteral("receiving"));
         QCOMPARE(liveLoadText(status), QStringLiteral("keeps pace"));
         QCOMPARE(liveRecordingText(status.load.facts), QStringLiteral("12.3 MB recorded, 38.0 GB left"));
-        QVERIFY(moodOf(status) == LiveMood::good);
+        QVERIFY(signalOf(status) == Signal::good);
         status.behind_s = 1.5;
         status.lighter = true;
         status.load.facts.skipped = 12;
@@ -168,11 +168,11 @@ class LiveWindowTest : public QObject {
         QVERIFY(liveLoadText(status).startsWith(QStringLiteral("40 of 1,000 frames with fewer corners")));
         status.load.facts.silent_s = 4;
         QCOMPARE(liveStateText(status, 30), QStringLiteral("no picture for 4.0 s"));
-        QVERIFY(moodOf(status) == LiveMood::waiting);
+        QVERIFY(signalOf(status) == Signal::warning);
         status.load.facts.connected = false;
         QCOMPARE(liveStateText(status, 30),
                  QStringLiteral("connection lost 4.0 s ago; connecting again, for 30.0 s at most"));
-        QVERIFY(moodOf(status) == LiveMood::bad);
+        QVERIFY(signalOf(status) == Signal::bad);
         status.load.facts.reconnects = 2;
         QVERIFY(liveLoadText(status).contains(QStringLiteral("connected again 2×")));
         QVERIFY(!isNearlyFull(status.load.facts));

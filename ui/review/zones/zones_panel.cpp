@@ -15,6 +15,7 @@
 
 #include "review/zones/zone_colours.h"
 #include "review/zones/zones_model.h"
+#include "widgets/display_text.h"
 #include "widgets/swatch.h"
 #include "widgets/tables/table_roles.h"
 #include "widgets/wiring.h"
@@ -154,10 +155,8 @@ void ZonesPanel::askForFile(bool reading) {
         if (!path.isEmpty()) commands_.read_file(path);
         return;
     }
-    QString path = QFileDialog::getSaveFileName(this, tr("Export zones"), QStringLiteral("zones.json"), kinds);
-    if (path.isEmpty()) return;
-    if (!path.endsWith(QStringLiteral(".json"), Qt::CaseInsensitive)) path += QStringLiteral(".json");
-    commands_.write_file(path);
+    const QString path = QFileDialog::getSaveFileName(this, tr("Export zones"), QStringLiteral("zones.json"), kinds);
+    if (!path.isEmpty()) commands_.write_file(withEnding(path, ".json"));
 }
 
 void ZonesPanel::enableButtons() {

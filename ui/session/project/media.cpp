@@ -15,8 +15,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string kScenePrefix = "scene:";
-
 SourceOptions sourceOptionsOf(FrameRate rate) {
     SourceOptions options;
     options.frame_rate_hz = rate.given_hz;
@@ -77,19 +75,15 @@ Media locatedMedia(const fs::path& missing, std::vector<fs::path> chosen, FrameR
 Media sceneMedia(const std::string& scene) {
     Media media;
     media.name = scene + " scene";
-    media.identity = kScenePrefix + scene;
+    media.identity = sceneName(scene);
     const auto kept = std::make_shared<SceneFrameCache>(scene, sceneFolder());
     media.gsd_m_per_px = [kept] { return kept->facts().gsd_m_per_px; };
     media.open = [kept](const IndexProgress&, std::stop_token) { return kept->open(); };
     return media;
 }
 
-bool isScene(const std::string& identity) {
-    return identity.starts_with(kScenePrefix);
-}
-
 Media mediaOfIdentity(const std::string& identity, FrameRate rate) {
-    if (isScene(identity)) return sceneMedia(identity.substr(kScenePrefix.size()));
+    if (isScene(identity)) return sceneMedia(sceneOf(identity));
     return videoMedia(identity, rate);
 }
 

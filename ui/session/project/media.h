@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/scene_name.h"
 #include "io/video/frame_source.h"
 
 namespace eyrie::ui {
@@ -44,9 +45,6 @@ Media locatedMedia(const std::filesystem::path& missing, std::vector<std::filesy
 
 /// A built-in scene, rendered as it is played. Throws Error(parameter) for an unknown one.
 Media sceneMedia(const std::string& scene);
-
-/// Whether an identity is that of a built-in scene and not a path.
-bool isScene(const std::string& identity);
 
 /// What a project's sequence path stands for.
 Media mediaOfIdentity(const std::string& identity, FrameRate rate = {});

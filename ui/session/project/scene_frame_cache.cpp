@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "core/scene_name.h"
 #include "io/atomic_file.h"
 #include "io/folder.h"
 #include "scene/painting/scene_renderer.h"
@@ -60,7 +61,7 @@ class CachedSceneSource : public FrameSource {
  public:
     CachedSceneSource(std::shared_ptr<SceneFrameCache> scene, const std::string& name) : scene_(std::move(scene)) {
         const SceneFrameCache::Facts facts = scene_->facts();
-        info_.path = "scene:" + name;
+        info_.path = sceneName(name);
         info_.size = facts.size;
         info_.frame_count = facts.frame_count;
         info_.frame_rate_hz = facts.frame_rate_hz;

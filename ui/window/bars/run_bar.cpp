@@ -49,7 +49,7 @@ RunBar::RunBar(ProjectSession& session, const WindowActions& actions, MessageBar
 
     gsd_ = new QLineEdit(this);
     gsd_->setObjectName(QStringLiteral("gsd"));
-    gsd_->setPlaceholderText(tr("unknown: speeds in px/frame"));
+    gsd_->setPlaceholderText(unknownGsdText());
     gsd_->setAccessibleName(tr("Ground sampling distance, metres per pixel"));
     gsd_->setClearButtonEnabled(true);
     gsd_->setMinimumWidth(fontMetrics().horizontalAdvance(gsd_->placeholderText()) + 40);
@@ -165,7 +165,7 @@ void RunBar::showOrigin() {
     // Without a run nothing was estimated yet.
     gsd_->setPlaceholderText(run != nullptr && run->scale_basis.origin == ScaleOrigin::estimated
                                  ? tr("unknown; estimated %1").arg(locale().toString(run->scale.gsd_m_per_px, 'g', 3))
-                                 : tr("unknown: speeds in px/frame"));
+                                 : unknownGsdText());
     QString tip =
         tr("Ground sampling distance: metres on the ground per pixel. Without it the run looks at the traffic for a "
            "scale to work with, and results are shown in pixels instead of metres and km/h.");

@@ -135,7 +135,6 @@ void StatusFields::setPlaces(PlacesInPicture places) {
 }
 
 void StatusFields::showPlace() {
-    showClock();
     const auto place = cursor_at_ && session_.video() ? places_.place_of(*cursor_at_) : std::nullopt;
     place_->setText(place ? QString::fromStdString(placeText(*place)) : QString());
     place_->setToolTip(place ? tr("Latitude and longitude under the cursor, degrees. %1").arg(places_.origin())

@@ -43,14 +43,15 @@ class StatusFields : public QObject {
     void setPlaces(PlacesInPicture places);
     void setClock(ClockOfFrames clock);
     void showCursor(std::optional<QPointF> image_point);
-    /// The place under the cursor, and the clock, may be others now.
+    /// The place under the cursor may be another now.
     void showPlace();
+    /// The time at which the frame was taken may be another now.
+    void showClock();
     void showZoom(double zoom);
 
  private:
     void stop();
     void showFrame();
-    void showClock();
     void showRun(const RunProgress& progress);
     void showOpening(const QString& name, double share);
     void showProgress();

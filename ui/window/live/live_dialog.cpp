@@ -33,11 +33,6 @@ QLabel* quietLabel(const QString& text, QWidget* parent) {
     return label;
 }
 
-QString withEnding(QString path, const QString& ending) {
-    if (!path.isEmpty() && !path.endsWith(ending, Qt::CaseInsensitive)) path += ending;
-    return path;
-}
-
 }  // namespace
 
 LiveDialog::LiveDialog(LiveDialogCommands commands, QWidget* parent) : QDialog(parent), commands_(std::move(commands)) {
@@ -65,7 +60,7 @@ void LiveDialog::buildFields() {
     recording_->setObjectName(QStringLiteral("live_recording"));
     gsd_ = new QLineEdit(fields_);
     gsd_->setObjectName(QStringLiteral("live_gsd"));
-    gsd_->setPlaceholderText(tr("unknown: speeds in px/frame"));
+    gsd_->setPlaceholderText(unknownGsdText());
     gsd_->setToolTip(
         tr("Ground sampling distance: metres on the ground per pixel. Of a live source it is not estimated."));
     give_up_ = new QSpinBox(fields_);
@@ -146,10 +141,8 @@ void LiveDialog::addressEdited() {
 
 void LiveDialog::projectEdited() {
     if (recording_chosen_) return;
-    const QString project = project_->text().trimmed();
-    recording_->setText(project.isEmpty() ? QString()
-                                          : QFileInfo(project).path() + QLatin1Char('/') +
-                                                QFileInfo(project).completeBaseName() + QStringLiteral(".ts"));
+    const std::string project = withEnding(project_->text().trimmed(), kProjectEnding).toStdString();
+    recording_->setText(project.empty() ? QString() : QString::fromStdString(recordingFor(project).string()));
 }
 
 void LiveDialog::chooseProject() {
@@ -157,7 +150,7 @@ void LiveDialog::chooseProject() {
     const QString path =
         QFileDialog::getSaveFileName(this, tr("Project of the live source"), project_->text(),
                                      tr("Eyrie projects (*.eyrie)"), nullptr, QFileDialog::DontConfirmOverwrite);
-    if (!path.isEmpty()) project_->setText(withEnding(path, QString::fromLatin1(kProjectEnding)));
+    if (!path.isEmpty()) project_->setText(withEnding(path, kProjectEnding));
 }
 
 void LiveDialog::chooseRecording() {
@@ -166,7 +159,7 @@ void LiveDialog::chooseRecording() {
                                      tr("Transport streams (*.ts)"), nullptr, QFileDialog::DontConfirmOverwrite);
     if (path.isEmpty()) return;
     recording_chosen_ = true;
-    recording_->setText(withEnding(path, QStringLiteral(".ts")));
+    recording_->setText(withEnding(path, ".ts"));
 }
 
 void LiveDialog::watch() {
@@ -178,7 +171,7 @@ void LiveDialog::watch() {
         gsd_->setFocus();
         return;
     }
-    const QString project = withEnding(project_->text().trimmed(), QString::fromLatin1(kProjectEnding));
+    const QString project = withEnding(project_->text().trimmed(), kProjectEnding);
     const QString recording = recording_->text().trimmed();
     if (QFileInfo(project).completeBaseName().isEmpty()) {
         showFault(tr("Say where the project goes."));
@@ -208,7 +201,7 @@ void LiveDialog::setWaiting(bool waiting) {
 
 void LiveDialog::showFault(const QString& why) {
     QPalette coloured = palette();
-    coloured.setColor(QPalette::WindowText, isDark(palette()) ? QColor(255, 128, 128) : QColor(176, 0, 32));
+    coloured.setColor(QPalette::WindowText, faultText(palette()));
     fault_->setPalette(coloured);
     fault_->setText(why);
     fault_->show();

@@ -7,26 +7,16 @@
 #include <QToolButton>
 
 #include "io/live/live_address.h"
+#include "widgets/display_text.h"
 #include "widgets/theme_colours.h"
 #include "widgets/wiring.h"
+#include "window/live/live_text.h"
 
 namespace eyrie::ui {
 namespace {
 
 constexpr int kRefresh_ms = 250;
 constexpr int kWidestAddress_px = 260;
-
-QColor hueOfMood(LiveMood mood) {
-    switch (mood) {
-        case LiveMood::good:
-            return {0, 158, 115};
-        case LiveMood::waiting:
-            return {230, 159, 0};
-        case LiveMood::bad:
-            break;
-    }
-    return {213, 45, 45};
-}
 
 QLabel* liveField(QHBoxLayout& row, QWidget* parent) {
     auto* label = new QLabel(parent);
@@ -101,12 +91,8 @@ void LiveStrip::refresh() {
            "enough, frames are left out of it. The recording has all of them."));
     recording_->setText(liveRecordingText(facts));
     recording_->setToolTip(isNearlyFull(facts) ? tr("The source is ended before the disk is full.") : QString());
-    applyMood(moodOf(*status));
-}
-
-void LiveStrip::applyMood(LiveMood mood) {
     QPalette coloured = palette();
-    coloured.setColor(QPalette::WindowText, hueOfMood(mood));
+    coloured.setColor(QPalette::WindowText, signalColour(signalOf(*status)));
     dot_->setPalette(coloured);
 }
 

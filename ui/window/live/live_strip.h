@@ -4,7 +4,6 @@
 
 #include "session/project_session.h"
 #include "widgets/repeated_call.h"
-#include "window/live/live_text.h"
 
 class QLabel;
 class QToolButton;
@@ -29,7 +28,6 @@ class LiveStrip : public QFrame {
  private:
     void follow();
     void refresh();
-    void applyMood(LiveMood mood);
 
     ProjectSession& session_;
     QLabel* dot_;

@@ -23,21 +23,21 @@ QString bytesText(std::uint64_t bytes) {
 
 }  // namespace
 
-LiveMood moodOf(const LiveStatus& status) {
-    if (!status.load.facts.connected) return LiveMood::bad;
-    return status.load.facts.silent_s > kSilent_s ? LiveMood::waiting : LiveMood::good;
+Signal signalOf(const LiveStatus& status) {
+    if (!status.load.facts.connected) return Signal::bad;
+    return status.load.facts.silent_s > kSilent_s ? Signal::warning : Signal::good;
 }
 
 QString liveStateText(const LiveStatus& status, double give_up_s) {
     const LiveFacts& facts = status.load.facts;
     if (!facts.ended.empty()) return tr("ended: %1").arg(QString::fromStdString(facts.ended));
     const QString since = durationText(facts.silent_s);
-    switch (moodOf(status)) {
-        case LiveMood::bad:
+    switch (signalOf(status)) {
+        case Signal::bad:
             return tr("connection lost %1 ago; connecting again, for %2 at most").arg(since, durationText(give_up_s));
-        case LiveMood::waiting:
+        case Signal::warning:
             return tr("no picture for %1").arg(since);
-        case LiveMood::good:
+        case Signal::good:
             break;
     }
     if (status.behind_s < kInPace_s) return tr("receiving");

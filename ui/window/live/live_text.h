@@ -3,14 +3,13 @@
 #include <QString>
 
 #include "chain/live/live_run.h"
+#include "widgets/theme_colours.h"
 
 /// How a live source stands, for people.
 namespace eyrie::ui {
 
-enum class LiveMood { good, waiting, bad };
-
 /// How much a person has to worry about the source itself.
-LiveMood moodOf(const LiveStatus& status);
+Signal signalOf(const LiveStatus& status);
 /// "receiving, 0.4 s behind", "no picture for 4 s", "connection lost, connecting again since 0:12". `give_up_s`: after
 /// how long without a picture it is given up.
 QString liveStateText(const LiveStatus& status, double give_up_s);

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
-#include <string_view>
 #include <utility>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "core/utc_time.h"
 #include "io/atomic_file.h"
 #include "io/file_digest.h"
@@ -89,10 +89,7 @@ std::string shortStem(const fs::path& file) {
 }  // namespace
 
 bool hasPartListName(const fs::path& path) {
-    const std::string_view wanted = kPartListEnding;
-    const std::string ending = path.extension().string();
-    return std::equal(ending.begin(), ending.end(), wanted.begin(), wanted.end(),
-                      [](unsigned char a, char b) { return std::tolower(a) == b; });
+    return hasEnding(path, kPartListEnding);
 }
 
 std::vector<ListedPart> readPartList(const fs::path& list) {
