@@ -1,5 +1,6 @@
 #include "cli/live_command.h"
 
+#include <algorithm>
 #include <condition_variable>
 #include <cstdio>
 #include <mutex>
@@ -29,6 +30,11 @@ class LiveConsole : public ChainObserver {
         const auto now = std::chrono::steady_clock::now();
         if (quiet_ || now - told_ < kTellEvery) return;
         told_ = now;
+        if (progress.estimating_scale) {
+            std::fprintf(stderr, "Looking at the first pictures for a scale: %d %%\n",
+                         100 * progress.frames_done / std::max(1, progress.frames_total));
+            return;
+        }
         const LiveStatus status = run_.status();
         const LiveFacts& facts = status.load.facts;
         std::fprintf(stderr, "%d frames, %s frames/s, %s s behind, %d left out, connected again %d×\n",
@@ -103,13 +109,20 @@ int runLiveCommand(const LiveArguments& arguments) {
         std::fprintf(stderr, "%s: %d×%d px at %s Hz, recorded in %s\n", shownAddress(arguments.address).c_str(),
                      video.size.width, video.size.height, fixedText(video.frame_rate_hz, 2).c_str(),
                      run.recording().c_str());
-        if (!run.scale().gsd_known)
-            std::fprintf(stderr, "GSD unknown: working with %s m/px; --gsd says what it is\n",
-                         fixedText(run.scale().gsd_m_per_px, 2).c_str());
     }
+    const auto tell_scale = [&](const RunRecord& record) {
+        if (arguments.quiet || record.scale.gsd_known) return;
+        const ScaleBasis& basis = record.scale_basis;
+        if (basis.origin == ScaleOrigin::estimated)
+            std::fprintf(stderr, "%s\n",
+                         estimateText({record.scale.gsd_m_per_px, basis.uncertainty.value_or(1), basis.vehicles}).c_str());
+        else
+            std::fprintf(stderr, "GSD unknown: working with %s m/px; --gsd says what it is\n",
+                         fixedText(record.scale.gsd_m_per_px, 2).c_str());
+    };
     LiveConsole console(run, arguments.quiet);
     const LiveTimer timer(arguments.seconds, ending);
-    const LiveRunResult result = run.run(&console);
+    const LiveRunResult result = run.run(&console, tell_scale);
     ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
     const RunStore store(file);
     if (!arguments.tracks_csv.empty())

@@ -51,8 +51,9 @@ StartOptions readOptions(const QCoreApplication& application, int argc, char** a
     parser.addVersionOption();
     parser.addPositionalArgument(QStringLiteral("input"),
                                  QStringLiteral("Video, or several files that are one video in a row; folder of "
-                                                "images; or project (.eyrie)."),
-                                 QStringLiteral("[VIDEO…|PROJECT]"));
+                                                "images; address of a live source (udp://, rtsp:// and others); or "
+                                                "project (.eyrie)."),
+                                 QStringLiteral("[VIDEO…|ADDRESS|PROJECT]"));
     const QCommandLineOption gsd(QStringLiteral("gsd"), QStringLiteral("Ground sampling distance, metres per pixel."),
                                  QStringLiteral("m"));
     const QCommandLineOption rate(QStringLiteral("fps"), QStringLiteral("Frames per second, for folders of images."),

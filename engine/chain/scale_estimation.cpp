@@ -17,8 +17,7 @@ namespace {
 
 constexpr double kFinest = 0.04;  ///< m/px, first assumption
 constexpr int kAssumptions = 9;
-constexpr double kStep = 1.4;  ///< from one assumption to the next
-constexpr int kPilotFrames = 40;
+constexpr double kStep = 1.4;       ///< from one assumption to the next
 constexpr int kSettledFrames = 14;  ///< until tracks have formed
 constexpr std::size_t kFewestStates = 8;
 constexpr double kFewestLooks = 8;  ///< sure windows under the best assumption; fewer are chance
@@ -149,7 +148,7 @@ std::vector<Outcome> outcomesOf(FrameSource& source, FrameIndex first, FrameInde
                                 double frame_rate_hz, const std::stop_token& stop, const ScaleProgress& told) {
     const ChainOptions looking = lookingOptions(options);
     std::vector<Frame> frames;
-    for (FrameIndex i = first; i <= last && i < first + kPilotFrames && !stop.stop_requested(); ++i) {
+    for (FrameIndex i = first; i <= last && i < first + kFramesOfLook && !stop.stop_requested(); ++i) {
         try {
             frames.push_back(source.read(i, false));
         } catch (const Error&) {
@@ -194,12 +193,12 @@ SceneScale middleScale(FrameSource& source, FrameRange range, const ChainOptions
         if (why_not != nullptr) *why_not = missing;
         if (!missing.empty()) return scale;
     }
-    const FrameIndex farthest = std::max(range.first, last - kPilotFrames + 1);
+    const FrameIndex farthest = std::max(range.first, last - kFramesOfLook + 1);
     FrameIndex looked_to = range.first - 1;
     std::vector<Outcome> together(kAssumptions);
     for (const FrameIndex first : {range.first, range.first + (farthest - range.first) / 2, farthest}) {
         if (first <= looked_to || stop.stop_requested()) continue;
-        looked_to = first + kPilotFrames - 1;
+        looked_to = first + kFramesOfLook - 1;
         const auto outcomes = outcomesOf(source, first, last, options, scale.frame_rate_hz, stop, told);
         // What looks like a vehicle by chance must not add up to traffic.
         if (outcomes.empty() || !estimateFrom(outcomes)) continue;

@@ -18,6 +18,9 @@ struct ScaleEstimate {
     int vehicles = 0;         ///< tracks it rests on
 };
 
+/// Frames of one look; where no more are there, what these show decides.
+inline constexpr int kFramesOfLook = 40;
+
 /// Receives the progress of the look, on the thread that looks.
 using ScaleProgress = std::function<void(const RunProgress&)>;
 

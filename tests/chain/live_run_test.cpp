@@ -10,6 +10,7 @@
 #include "io/video/video_writer.h"
 #include "support/live_sender.h"
 #include "support/moving_scene.h"
+#include "support/shared_data.h"
 #include "support/temporary_folder.h"
 #include "support/wait_until.h"
 
@@ -30,6 +31,19 @@ class LiveRuns : public testing::Test {
             cv::cvtColor(scene.draw(i), colour, cv::COLOR_GRAY2BGR);
             writer.write(colour);
         }
+        writer.finish();
+        return folder_ / "film.ts";
+    }
+    /// A folder of images as a transport stream.
+    std::filesystem::path filmOf(const std::filesystem::path& pictures) {
+        SourceOptions rate;
+        rate.frame_rate_hz = 25;
+        const auto source = openSource(pictures, rate);
+        VideoWriterOptions options;
+        options.key_frame_distance = 10;
+        options.quality = 12;
+        VideoWriter writer(folder_ / "film.ts", source->info().size, options);
+        for (int i = 0; i < source->info().frame_count; ++i) writer.write(source->read(i, true).colour);
         writer.finish();
         return folder_ / "film.ts";
     }
@@ -104,6 +118,47 @@ TEST_F(LiveRuns, AChainThatIsBehindTakesFewerCornersAndLeavesFramesOutAndSaysSo)
     EXPECT_EQ(static_cast<int>(frames.size()), result.load.facts.frames) << "every frame has its row";
     EXPECT_EQ(frozen, result.load.facts.skipped);
     EXPECT_EQ(result.record.last_frame, result.load.facts.frames - 1);
+}
+
+TEST_F(LiveRuns, AnUnknownScaleIsEstimatedFromTheFirstPicturesWhichTheRunHasAllTheSame) {
+    EYRIE_NEED_SHARED_DATA("collage_day");
+    const test::LiveSender sender(port_, {{filmOf(test::sharedData("collage_day/frames")), 4, 0.3}});
+    LiveRequest wanted = request(1000);
+    wanted.gsd_m_per_px = 0;
+    LiveRun run(wanted, {});
+    struct Looking : ChainObserver {
+        void onFrame(const std::shared_ptr<const FrameResult>& result, const Frame&) override {
+            frames.push_back(result->motion.frame);
+        }
+        void onProgress(const RunProgress& progress) override {
+            if (progress.estimating_scale) looked += frames.empty() ? 1 : -1000;
+        }
+        int looked = 0;
+        std::vector<FrameIndex> frames;
+    } looking;
+    ScaleBasis told;
+    const LiveRunResult result = run.run(&looking, [&](const RunRecord& record) { told = record.scale_basis; });
+    EXPECT_EQ(result.summary.outcome, RunOutcome::finished) << result.summary.message;
+    EXPECT_GT(looking.looked, 0) << "before the first frame of the run";
+    EXPECT_EQ(result.record.scale_basis.origin, ScaleOrigin::estimated);
+    EXPECT_EQ(told, result.record.scale_basis);
+    EXPECT_NEAR(result.record.scale.gsd_m_per_px, 0.2, 0.04);
+    EXPECT_FALSE(result.record.scale.gsd_known) << "a guess is no knowledge";
+    ASSERT_GT(looking.frames.size(), 40u);
+    for (std::size_t i = 0; i < looking.frames.size(); ++i) ASSERT_EQ(looking.frames[i], static_cast<FrameIndex>(i));
+}
+
+TEST_F(LiveRuns, WhatWasLeftOutWhileTheScaleWasLookedForIsToldApart) {
+    LiveLoad load;
+    load.facts.frames = 900;
+    load.facts.skipped = 120;
+    load.left_out_for_scale = 100;
+    EXPECT_EQ(
+        load.text(),
+        "100 of 900 frames left out while the scale was looked for; 20 of 900 frames left out, since the chain was "
+        "behind");
+    load.facts.skipped = 100;
+    EXPECT_EQ(load.text(), "100 of 900 frames left out while the scale was looked for");
 }
 
 TEST_F(LiveRuns, AtAnyMomentItSaysHowItStands) {

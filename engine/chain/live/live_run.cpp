@@ -8,8 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "chain/live/read_ahead.h"
 #include "chain/recording/chain_state.h"
 #include "chain/recording/run_recorder.h"
+#include "chain/scale_estimation.h"
 #include "core/error.h"
 #include "core/project_name.h"
 #include "core/utc_time.h"
@@ -26,15 +28,26 @@ constexpr double kBehind = 0.5;       ///< share of the waiting frames from whic
 constexpr double kInPace = 0.1;       ///< and below which the chain keeps pace again …
 constexpr double kPaceBefore_s = 20;  ///< … for so long, before all corners are taken again; longer every time
 constexpr double kFewer = 1.5;        ///< by which corners lie farther apart: less than half of them
+constexpr double kImpatient = 0.1;    ///< share of it, where the chain is behind because the scale was looked for
 constexpr auto kEndEvery = std::chrono::seconds(2);
 
 /// A live source whose reader, the first half of the chain, is made lighter while it is behind. Reading happens on the
 /// thread of that half, so that it may be exchanged between two frames.
 class LighterReading : public FrameSource {
  public:
-    LighterReading(LiveStream& stream, const ChainOptions& options, const SceneScale& scale,
-                   std::shared_ptr<ChainProgress> progress)
-        : stream_(stream), options_(options), scale_(scale), progress_(std::move(progress)) {}
+    LighterReading(LiveStream& stream, const ChainOptions& options)
+        : stream_(stream), ahead_(stream), options_(options) {}
+
+    /// The first frames, to be looked at before begin().
+    std::unique_ptr<FrameSource> first(int frames) {
+        patience_ = kImpatient;
+        return ahead_.first(frames);
+    }
+    /// Before the first frame is read.
+    void begin(const SceneScale& scale, std::shared_ptr<ChainProgress> progress) {
+        scale_ = scale;
+        progress_ = std::move(progress);
+    }
 
     const VideoInfo& info() const override { return stream_.info(); }
     std::int64_t timeOf(FrameIndex index) const override { return stream_.timeOf(index); }
@@ -46,7 +59,7 @@ class LighterReading : public FrameSource {
             exchange(false);
             patience_ *= 2;
         }
-        Frame frame = stream_.read(index, with_colour);
+        Frame frame = ahead_.read(index, with_colour);
         ++frames_read_;
         if (lighter_) ++fewer_corners_;
         last_ = frame;
@@ -69,6 +82,7 @@ class LighterReading : public FrameSource {
     }
 
     LiveStream& stream_;
+    ReadAhead ahead_;
     const ChainOptions& options_;
     SceneScale scale_;
     std::shared_ptr<ChainProgress> progress_;
@@ -140,7 +154,10 @@ std::string LiveLoad::text() const {
     std::string text;
     const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
     const std::string of = " of " + std::to_string(facts.frames) + " frames ";
-    if (facts.skipped > 0) add(std::to_string(facts.skipped) + of + "left out, since the chain was behind");
+    if (left_out_for_scale > 0)
+        add(std::to_string(left_out_for_scale) + of + "left out while the scale was looked for");
+    if (facts.skipped > left_out_for_scale)
+        add(std::to_string(facts.skipped - left_out_for_scale) + of + "left out, since the chain was behind");
     if (fewer_corners > 0) add(std::to_string(fewer_corners) + of + "with fewer corners");
     if (facts.reconnects > 0)
         add("connected again " + std::to_string(facts.reconnects) + "×, longest gap " +
@@ -156,13 +173,28 @@ ChainOptions withFewerCorners(ChainOptions options) {
 
 /// What a live run is made of.
 struct LiveRun::Parts {
-    Parts(LiveRequest wanted, std::stop_token stop)
+    Parts(LiveRequest wanted, std::stop_token wanted_stop)
         : request(withRecording(std::move(wanted))),
           made(request.project),
-          stream(request.address, request.stream, std::move(stop)),
+          stop(std::move(wanted_stop)),
+          stream(request.address, request.stream, stop),
           scale(sceneScale(stream.info(), request.gsd_m_per_px)),
-          start{std::make_shared<ChainProgress>(request.options, scale), 0},
-          source(stream, request.options, scale, start.progress) {}
+          source(stream, request.options) {}
+
+    /// Takes an estimate for the scale where it is not known. Frames that come meanwhile are left out of the run once
+    /// no more can wait.
+    ScaleBasis chooseScaleOf(ChainObserver* also) {
+        std::optional<ScaleEstimate> estimated;
+        if (!scale.gsd_known) {
+            const auto told = [&](const RunProgress& progress) {
+                if (also != nullptr) also->onProgress(progress);
+            };
+            const auto first = source.first(kFramesOfLook);
+            scale = chooseScale(*first, {}, request.options, 0, stop, told, &estimated);
+            left_out_for_scale = stream.facts().skipped;
+        }
+        return basisOf(scale, estimated);
+    }
 
     static LiveRequest withRecording(LiveRequest request) {
         if (request.stream.recording.empty()) request.stream.recording = recordingFor(request.project);
@@ -178,10 +210,11 @@ struct LiveRun::Parts {
 
     LiveRequest request;
     ProjectOfRun made;
+    std::stop_token stop;
     LiveStream stream;
     SceneScale scale;
-    RunStart start;
     LighterReading source;
+    std::atomic<int> left_out_for_scale{0};
 };
 
 LiveRun::LiveRun(LiveRequest request, std::stop_token stop)
@@ -203,7 +236,7 @@ const std::filesystem::path& LiveRun::recording() const {
 
 LiveStatus LiveRun::status() const {
     LiveStatus status;
-    status.load = {parts_->stream.facts(), parts_->source.fewerCorners()};
+    status.load = {parts_->stream.facts(), parts_->source.fewerCorners(), parts_->left_out_for_scale};
     status.lighter = parts_->source.lighter();
     status.behind_s = (status.load.facts.frames - parts_->source.framesRead()) / video().frame_rate_hz;
     return status;
@@ -212,16 +245,19 @@ LiveStatus LiveRun::status() const {
 LiveRunResult LiveRun::run(ChainObserver* also, const Begun& begun) {
     const LiveRequest& request = parts_->request;
     LiveRunResult result;
+    const ScaleBasis basis = parts_->chooseScaleOf(also);
     RunRecord planned = plannedRun(video(), scale(), {}, request.preset);
+    planned.scale_basis = basis;
     planned.name = request.name.empty() ? shownAddress(request.address) : request.name;
     RunRecorder recorder(request.project, planned, request.options, also, request.details);
     LiveRecorder live(recorder, request.project);
     planned.id = recorder.runId();
     if (begun) begun(planned);
+    const RunStart start{std::make_shared<ChainProgress>(request.options, scale()), 0};
+    parts_->source.begin(scale(), start.progress);
     RunSummary& summary = result.summary;
     // Whoever wants it to end ends the stream: what came before is still worked on.
-    summary =
-        ChainRun(request.options, scale()).run(parts_->source, {}, live, {}, request.stream.with_colour, parts_->start);
+    summary = ChainRun(request.options, scale()).run(parts_->source, {}, live, {}, request.stream.with_colour, start);
     parts_->stream.finish();
     if (summary.outcome == RunOutcome::stopped) summary.outcome = RunOutcome::finished;
     summary.frames_total = summary.frames_done;

@@ -15,8 +15,9 @@ namespace eyrie {
 
 /// What a run over a live source gave up to keep pace.
 struct LiveLoad {
-    LiveFacts facts;        ///< a frame that was skipped repeats the one before: nothing was looked for in it
-    int fewer_corners = 0;  ///< frames that were registered by fewer corners than the parameters say
+    LiveFacts facts;             ///< a frame that was skipped repeats the one before: nothing was looked for in it
+    int fewer_corners = 0;       ///< frames that were registered by fewer corners than the parameters say
+    int left_out_for_scale = 0;  ///< of those that were skipped, before the run had its scale
 
     /// "3 of 100 frames left out; 40 with fewer corners; …"; empty where nothing was given up.
     std::string text() const;
@@ -37,7 +38,7 @@ struct LiveRequest {
     ChainOptions options;
     std::string preset = "default";
     std::string name;         ///< of the run; empty: the address
-    double gsd_m_per_px = 0;  ///< ≤ 0: not known; a value is assumed then, for the scale is not estimated
+    double gsd_m_per_px = 0;  ///< ≤ 0: not known; the first pictures are looked at for an estimate then
     RecordingOptions details;
 };
 
@@ -64,15 +65,16 @@ class LiveRun {
     LiveRun(const LiveRun&) = delete;
     LiveRun& operator=(const LiveRun&) = delete;
 
-    const VideoInfo& video() const;  ///< its length is not known
-    const SceneScale& scale() const;
+    const VideoInfo& video() const;   ///< its length is not known
+    const SceneScale& scale() const;  ///< that of the run once it has begun
     const std::filesystem::path& recording() const;
     /// From any thread.
     LiveStatus status() const;
 
-    /// Works until the source ends or is stopped; once. `begun` hears of the run when it is in the project; `also`, if
-    /// given, sees every frame. What goes wrong with the stream or the chain is told by the summary; throws
-    /// Error(project | output) where the run cannot be stored.
+    /// Works until the source ends or is stopped; once. Where the scale is not known it is looked for first, in the
+    /// pictures that come first (chooseScale()). `begun` hears of the run when it is in the project; `also`, if given,
+    /// sees every frame, and how far that look is. What goes wrong with the stream or the chain is told by the summary;
+    /// throws Error(project | output) where the run cannot be stored.
     LiveRunResult run(ChainObserver* also = nullptr, const Begun& begun = {});
 
  private:

@@ -86,8 +86,29 @@ class TimelineViewTest : public QObject {
         view.setRunRange(std::pair(0, 49));
         const QImage before = view.grab().toImage();
         view.setFrameDone(10, {.done = true, .state = RegistrationState::registered, .corners = 10, .tracks = 2});
-        view.setFrameDone(99, {.done = true});  // not a frame of this video: ignored
         QVERIFY(before != view.grab().toImage());
+    }
+
+    void framesOfALiveSourceStandThereWhenItsLengthIsTold() {
+        TimelineView view;
+        view.resize(600, 104);
+        view.setTimes(times(50));
+        view.setRunRange(std::pair(0, 49));
+        for (int frame = 0; frame < 60; ++frame)
+            view.setFrameDone(frame,
+                              {.done = true, .state = RegistrationState::registered, .corners = 10, .tracks = 2});
+        const QImage shorter = view.grab().toImage();
+        view.setRunRange(std::pair(0, 59));
+        view.extendTimes(times(60));
+        const QImage grown = view.grab().toImage();
+        TimelineView whole;
+        whole.resize(600, 104);
+        whole.setTimes(times(60));
+        whole.setRunRange(std::pair(0, 59));
+        whole.setFrames(std::vector<TimelineFrame>(
+            60, {.done = true, .state = RegistrationState::registered, .corners = 10, .tracks = 2}));
+        QVERIFY(shorter != grown);
+        QCOMPARE(grown, whole.grab().toImage());
     }
 
     void seamsStandWhereTheirFramesBeginAndNotTooDense() {

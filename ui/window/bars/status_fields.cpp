@@ -78,7 +78,7 @@ StatusFields::StatusFields(ProjectSession& session, QStatusBar& bar) : QObject(&
 
 void StatusFields::showPreparing() {
     if (session_.liveSource() != nullptr) {
-        work_->setText(tr("waiting for the live source …"));
+        work_->setText(tr("waiting for the live source…"));
         bar_->setRange(0, 0);
         showProgress();
         return;
@@ -169,7 +169,7 @@ void StatusFields::showZoom(double zoom) {
 
 void StatusFields::showRun(const RunProgress& progress) {
     if (!session_.running()) return;
-    if (session_.liveSource() != nullptr) {
+    if (session_.liveSource() != nullptr && !progress.estimating_scale) {
         work_->setText(tr("live   %1 fps").arg(QLocale().toString(progress.frames_per_second, 'f', 1)));
         work_->show();
         bar_->hide();  // nobody knows how long it is

@@ -61,8 +61,9 @@ void LiveDialog::buildFields() {
     gsd_ = new QLineEdit(fields_);
     gsd_->setObjectName(QStringLiteral("live_gsd"));
     gsd_->setPlaceholderText(unknownGsdText());
-    gsd_->setToolTip(
-        tr("Ground sampling distance: metres on the ground per pixel. Of a live source it is not estimated."));
+    gsd_->setToolTip(tr(
+        "Ground sampling distance: metres on the ground per pixel. Without it the first pictures are looked at for a "
+        "scale to work with; that takes some seconds, and much of what comes meanwhile is recorded only."));
     give_up_ = new QSpinBox(fields_);
     give_up_->setObjectName(QStringLiteral("live_give_up"));
     give_up_->setRange(5, 24 * 3600);
@@ -194,9 +195,16 @@ void LiveDialog::watch() {
 void LiveDialog::setWaiting(bool waiting) {
     waiting_ = waiting;
     fields_->setEnabled(!waiting);
+    busy_->setRange(0, 0);
     busy_->setVisible(waiting);
-    watch_->setText(waiting ? tr("Waiting for a picture …") : tr("Watch"));
+    watch_->setText(waiting ? tr("Waiting for a picture…") : tr("Watch"));
     addressEdited();
+}
+
+void LiveDialog::showLook(int done, int total) {
+    busy_->setRange(0, total);
+    busy_->setValue(done);
+    watch_->setText(tr("Looking for the scale…"));
 }
 
 void LiveDialog::showFault(const QString& why) {

@@ -31,6 +31,8 @@ class LiveDialog : public QDialog {
     void propose(const QString& address, const QString& project);
     /// The source is waited for, or no longer.
     void setWaiting(bool waiting);
+    /// It has answered, and its first pictures are looked at for a scale: how far that is.
+    void showLook(int done, int total);
     void showFault(const QString& why);
 
  protected:

@@ -5,9 +5,11 @@
 #include <QIcon>
 #include <QLabel>
 #include <QToolButton>
+#include <algorithm>
 
 #include "io/live/live_address.h"
 #include "widgets/display_text.h"
+#include "widgets/elided_label.h"
 #include "widgets/theme_colours.h"
 #include "widgets/wiring.h"
 #include "window/live/live_text.h"
@@ -16,14 +18,10 @@ namespace eyrie::ui {
 namespace {
 
 constexpr int kRefresh_ms = 250;
-constexpr int kWidestAddress_px = 260;
 
+/// Of a small window the texts give way, not the window.
 QLabel* liveField(QHBoxLayout& row, QWidget* parent) {
-    auto* label = new QLabel(parent);
-    label->setTextFormat(Qt::PlainText);
-    label->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    label->setFocusPolicy(Qt::NoFocus);
-    label->setMinimumWidth(1);  // of a small window the texts give way, not the window
+    auto* label = new ElidedLabel(Qt::ElideRight, parent);
     row.addWidget(label);
     return label;
 }
@@ -36,14 +34,16 @@ LiveStrip::LiveStrip(ProjectSession& session, QWidget* parent)
     setAccessibleName(tr("Live source"));
     auto* row = new QHBoxLayout(this);
     row->setContentsMargins(8, 3, 4, 3);
-    row->setSpacing(18);
+    row->setSpacing(14);
     dot_ = new QLabel(QStringLiteral("●"), this);
     row->addWidget(dot_);
-    address_ = liveField(*row, this);
     state_ = liveField(*row, this);
     load_ = liveField(*row, this);
-    row->addStretch(1);
     recording_ = liveField(*row, this);
+    address_ = new ElidedLabel(Qt::ElideMiddle, this);
+    address_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);  // what the others leave
+    address_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+    row->addWidget(address_, 1);
     stop_ = new QToolButton(this);
     stop_->setText(tr("Stop watching"));
     stop_->setIcon(QIcon::fromTheme(QStringLiteral("media-playback-stop")));
@@ -67,11 +67,10 @@ void LiveStrip::follow() {
         again_.stop();
         return;
     }
-    const QString address = QString::fromStdString(shownAddress(session_.liveSource()->address));
-    address_->setText(address_->fontMetrics().elidedText(address, Qt::ElideMiddle, kWidestAddress_px));
+    address_->setText(QString::fromStdString(shownAddress(session_.liveSource()->address)));
     address_->setToolTip(
-        tr("%1, recorded in %2")
-            .arg(address, QString::fromStdString(session_.video() ? session_.video()->path.string() : std::string())));
+        tr("Recorded in %1")
+            .arg(QString::fromStdString(session_.video() ? session_.video()->path.string() : std::string())));
     refresh();
     again_.start();
 }
@@ -85,12 +84,14 @@ void LiveStrip::refresh() {
         session_.stopping()
             ? tr("stopping: what came before is still worked on, %1 behind").arg(durationText(status->behind_s))
             : liveStateText(*status, session_.liveSource()->stream.give_up_s));
+    // What matters most keeps its room, unless that were all there is.
+    state_->setMinimumWidth(std::min(state_->sizeHint().width(), width() / 2));
     load_->setText(liveLoadText(*status));
     load_->setToolTip(
         tr("Where the chain is slower than the source, it takes fewer corners first; where that is not "
            "enough, frames are left out of it. The recording has all of them."));
     recording_->setText(liveRecordingText(facts));
-    recording_->setToolTip(isNearlyFull(facts) ? tr("The source is ended before the disk is full.") : QString());
+    recording_->setToolTip(liveSpaceText(facts));
     QPalette coloured = palette();
     coloured.setColor(QPalette::WindowText, signalColour(signalOf(*status)));
     dot_->setPalette(coloured);
@@ -102,7 +103,7 @@ void LiveStrip::changeEvent(QEvent* event) {
 }
 
 QString LiveStrip::text() const {
-    return QStringList{address_->text(), state_->text(), load_->text(), recording_->text()}.join(QStringLiteral(" | "));
+    return QStringList{state_->text(), load_->text(), recording_->text(), address_->text()}.join(QStringLiteral(" | "));
 }
 
 }  // namespace eyrie::ui

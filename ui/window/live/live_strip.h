@@ -10,8 +10,8 @@ class QToolButton;
 
 namespace eyrie::ui {
 
-/// Above the picture while a live source is watched: what is watched, whether it comes, what was given up to keep pace,
-/// what is recorded; and Stop.
+/// Above the picture while a live source is watched: whether it comes, what was given up to keep pace, what is
+/// recorded, its address; and Stop.
 class LiveStrip : public QFrame {
     Q_OBJECT
 
@@ -31,10 +31,10 @@ class LiveStrip : public QFrame {
 
     ProjectSession& session_;
     QLabel* dot_;
-    QLabel* address_;
     QLabel* state_;
     QLabel* load_;
     QLabel* recording_;
+    QLabel* address_;
     QToolButton* stop_;
     RepeatedCall again_;
 };

@@ -34,7 +34,7 @@ QString liveStateText(const LiveStatus& status, double give_up_s) {
     const QString since = durationText(facts.silent_s);
     switch (signalOf(status)) {
         case Signal::bad:
-            return tr("connection lost %1 ago; connecting again, for %2 at most").arg(since, durationText(give_up_s));
+            return tr("connection lost %1 ago; trying again for %2").arg(since, durationText(give_up_s));
         case Signal::warning:
             return tr("no picture for %1").arg(since);
         case Signal::good:
@@ -49,20 +49,25 @@ QString liveLoadText(const LiveStatus& status) {
     const QLocale locale;
     const QString of = locale.toString(load.facts.frames);
     QStringList parts;
-    if (status.lighter)
-        parts << tr("fewer corners now");
-    else if (load.fewer_corners > 0)
-        parts << tr("%1 of %2 frames with fewer corners").arg(locale.toString(load.fewer_corners), of);
+    if (status.lighter) parts << tr("fewer corners now");
     if (load.facts.skipped > 0) parts << tr("%1 of %2 frames left out").arg(locale.toString(load.facts.skipped), of);
+    if (!status.lighter && load.fewer_corners > 0)
+        parts << (load.facts.skipped > 0
+                      ? tr("%1 with fewer corners").arg(locale.toString(load.fewer_corners))
+                      : tr("%1 of %2 frames with fewer corners").arg(locale.toString(load.fewer_corners), of));
     if (load.facts.reconnects > 0) parts << tr("connected again %1×").arg(locale.toString(load.facts.reconnects));
     return parts.isEmpty() ? tr("keeps pace") : parts.join(QStringLiteral("; "));
 }
 
 QString liveRecordingText(const LiveFacts& facts) {
     const QString recorded = tr("%1 recorded").arg(bytesText(facts.recorded_bytes));
-    if (facts.free_bytes == 0) return recorded;
-    return isNearlyFull(facts) ? tr("%1, only %2 left").arg(recorded, bytesText(facts.free_bytes))
-                               : tr("%1, %2 left").arg(recorded, bytesText(facts.free_bytes));
+    return isNearlyFull(facts) ? tr("%1, only %2 left").arg(recorded, bytesText(facts.free_bytes)) : recorded;
+}
+
+QString liveSpaceText(const LiveFacts& facts) {
+    if (facts.free_bytes == 0) return {};
+    const QString left = tr("%1 are left on the disk.").arg(bytesText(facts.free_bytes));
+    return isNearlyFull(facts) ? left + QLatin1Char(' ') + tr("The source is ended before the disk is full.") : left;
 }
 
 bool isNearlyFull(const LiveFacts& facts) {

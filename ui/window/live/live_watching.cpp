@@ -26,6 +26,9 @@ LiveWatching::LiveWatching(const LiveParts& parts) : QObject(&parts.window), par
                       if (dialog_ && parts_.session.liveSource() != nullptr) dialog_->accept();
                   }},
                  {SessionChange::run_ended, [this] { endWaiting(); }}});
+    connect(&parts_.session, &ProjectSession::runProgress, this, [this](const RunProgress& progress) {
+        if (dialog_ && progress.estimating_scale) dialog_->showLook(progress.frames_done, progress.frames_total);
+    });
     connect(&parts_.session, &ProjectSession::liveRefused, this, [this](const QString& why) {
         if (dialog_) dialog_->showFault(why);
     });
