@@ -68,7 +68,10 @@ struct Slow : ChainObserver {
     explicit Slow(const LiveRun& of) : run(of) {}
     void onFrame(const std::shared_ptr<const FrameResult>& result, const Frame&) override {
         if (result->motion.frame > 0) return;
-        test::waitUntil("frames were left out", [&] { return run.status().load.facts.skipped > 0; });
+        test::waitUntil("frames were left out", [&] {
+            const LiveLoad load = run.status().load;
+            return load.facts.skipped > load.left_out_for_scale;
+        });
     }
     const LiveRun& run;
 };
@@ -146,6 +149,18 @@ TEST_F(LiveRuns, AnUnknownScaleIsEstimatedFromTheFirstPicturesWhichTheRunHasAllT
     EXPECT_FALSE(result.record.scale.gsd_known) << "a guess is no knowledge";
     ASSERT_GT(looking.frames.size(), 40u);
     for (std::size_t i = 0; i < looking.frames.size(); ++i) ASSERT_EQ(looking.frames[i], static_cast<FrameIndex>(i));
+}
+
+TEST_F(LiveRuns, WhatTheMetadataSayOfTheScaleIsTaken) {
+    EYRIE_NEED_SHARED_DATA("klv");
+    const test::LiveSender sender(port_, {{test::sharedData("klv/aphill_short.ts"), 4, 0.3}});
+    LiveRequest wanted = request(1000);
+    wanted.gsd_m_per_px = 0;
+    const LiveRunResult result = LiveRun(wanted, {}).run();
+    EXPECT_EQ(result.summary.outcome, RunOutcome::finished) << result.summary.message;
+    EXPECT_EQ(result.record.scale_basis.origin, ScaleOrigin::metadata);
+    EXPECT_TRUE(result.record.scale.gsd_known);
+    EXPECT_NEAR(result.record.scale.gsd_m_per_px, 0.0456, 0.001);
 }
 
 TEST_F(LiveRuns, WhatWasLeftOutWhileTheScaleWasLookedForIsToldApart) {

@@ -18,6 +18,7 @@
 #include "io/live/live_address.h"
 #include "io/output_files.h"
 #include "io/tables/number_text.h"
+#include "metadata/metadata_scale.h"
 #include "store/backup/database_copy.h"
 #include "store/runs/run_end.h"
 
@@ -181,19 +182,31 @@ struct LiveRun::Parts {
           scale(sceneScale(stream.info(), request.gsd_m_per_px)),
           source(stream, request.options) {}
 
-    /// Takes an estimate for the scale where it is not known. Frames that come meanwhile are left out of the run once
-    /// no more can wait.
-    ScaleBasis chooseScaleOf(ChainObserver* also) {
-        std::optional<ScaleEstimate> estimated;
-        if (!scale.gsd_known) {
-            const auto told = [&](const RunProgress& progress) {
-                if (also != nullptr) also->onProgress(progress);
-            };
-            const auto first = source.first(kFramesOfLook);
-            scale = chooseScale(*first, {}, request.options, 0, stop, told, &estimated);
-            left_out_for_scale = stream.facts().skipped;
+    /// What the metadata say that were recorded so far, where nobody gave a scale.
+    StatedScale statedSoFar() const {
+        if (request.gsd_m_per_px > 0) return {request.gsd_m_per_px, ScaleOrigin::given, {}};
+        try {
+            const auto recorded = openSource(request.stream.recording, {}, {}, stop);
+            return statedScale(*recorded, 0, -1, 0, ScaleOrigin::given, stop);
+        } catch (const Error&) {
+            return {};  // too little was recorded to be read; the recording as a whole is read when the run has ended
         }
-        return basisOf(scale, estimated);
+    }
+
+    /// Looks at the first pictures for what is not known of the scale. Frames that come meanwhile are left out of the
+    /// run once no more can wait.
+    ScaleBasis chooseScaleOf(ChainObserver* also) {
+        const auto told = [&](const RunProgress& progress) {
+            if (also != nullptr) also->onProgress(progress);
+        };
+        std::optional<ScaleEstimate> estimated;
+        const auto first = source.first(kFramesOfLook);
+        const StatedScale stated = statedSoFar();
+        scale = chooseScale(*first, {}, request.options, stated.gsd_m_per_px, stop, told, &estimated);
+        left_out_for_scale = stream.facts().skipped;
+        ScaleBasis basis = basisOf(scale, estimated);
+        if (stated.gsd_m_per_px > 0) basis.origin = stated.origin;
+        return basis;
     }
 
     static LiveRequest withRecording(LiveRequest request) {

@@ -38,7 +38,7 @@ struct LiveRequest {
     ChainOptions options;
     std::string preset = "default";
     std::string name;         ///< of the run; empty: the address
-    double gsd_m_per_px = 0;  ///< ≤ 0: not known; the first pictures are looked at for an estimate then
+    double gsd_m_per_px = 0;  ///< ≤ 0: not known: that of the metadata is taken, or an estimate
     RecordingOptions details;
 };
 
@@ -71,8 +71,8 @@ class LiveRun {
     /// From any thread.
     LiveStatus status() const;
 
-    /// Works until the source ends or is stopped; once. Where the scale is not known it is looked for first, in the
-    /// pictures that come first (chooseScale()). `begun` hears of the run when it is in the project; `also`, if given,
+    /// Works until the source ends or is stopped; once. What is not known of the scale is looked for first: in the
+    /// metadata, and in the pictures that come first (chooseScale()). `begun` hears of the run when it is in the project; `also`, if given,
     /// sees every frame, and how far that look is. What goes wrong with the stream or the chain is told by the summary;
     /// throws Error(project | output) where the run cannot be stored.
     LiveRunResult run(ChainObserver* also = nullptr, const Begun& begun = {});

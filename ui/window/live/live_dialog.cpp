@@ -62,8 +62,9 @@ void LiveDialog::buildFields() {
     gsd_->setObjectName(QStringLiteral("live_gsd"));
     gsd_->setPlaceholderText(unknownGsdText());
     gsd_->setToolTip(tr(
-        "Ground sampling distance: metres on the ground per pixel. Without it the first pictures are looked at for a "
-        "scale to work with; that takes some seconds, and much of what comes meanwhile is recorded only."));
+        "Ground sampling distance: metres on the ground per pixel. Without it that of the source's metadata is taken, "
+        "where it has some; else the first pictures are looked at for a scale to work with. That takes some seconds, "
+        "and much of what comes meanwhile is recorded only."));
     give_up_ = new QSpinBox(fields_);
     give_up_->setObjectName(QStringLiteral("live_give_up"));
     give_up_->setRange(5, 24 * 3600);
