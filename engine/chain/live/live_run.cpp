@@ -25,11 +25,10 @@
 namespace eyrie {
 namespace {
 
-constexpr double kBehind = 0.5;       ///< share of the waiting frames from which fewer corners are taken
-constexpr double kInPace = 0.1;       ///< and below which the chain keeps pace again …
-constexpr double kPaceBefore_s = 20;  ///< … for so long, before all corners are taken again; longer every time
-constexpr double kFewer = 1.5;        ///< by which corners lie farther apart: less than half of them
-constexpr double kImpatient = 0.1;    ///< share of it, where the chain is behind because the scale was looked for
+constexpr double kBehind = 0.5;      ///< share of the waiting frames from which fewer corners are taken
+constexpr double kInPace = 0.1;      ///< and below which the chain keeps pace again …
+constexpr double kPaceBefore_s = 2;  ///< … for so long, before all corners are taken again; twice as long every time
+constexpr double kFewer = 1.5;       ///< by which corners lie farther apart: less than half of them
 constexpr auto kEndEvery = std::chrono::seconds(2);
 
 /// A live source whose reader, the first half of the chain, is made lighter while it is behind. Reading happens on the
@@ -40,10 +39,7 @@ class LighterReading : public FrameSource {
         : stream_(stream), ahead_(stream), options_(options) {}
 
     /// The first frames, to be looked at before begin().
-    std::unique_ptr<FrameSource> first(int frames) {
-        patience_ = kImpatient;
-        return ahead_.first(frames);
-    }
+    std::unique_ptr<FrameSource> first(int frames) { return ahead_.first(frames); }
     /// Before the first frame is read.
     void begin(const SceneScale& scale, std::shared_ptr<ChainProgress> progress) {
         scale_ = scale;

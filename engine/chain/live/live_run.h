@@ -72,9 +72,9 @@ class LiveRun {
     LiveStatus status() const;
 
     /// Works until the source ends or is stopped; once. What is not known of the scale is looked for first: in the
-    /// metadata, and in the pictures that come first (chooseScale()). `begun` hears of the run when it is in the project; `also`, if given,
-    /// sees every frame, and how far that look is. What goes wrong with the stream or the chain is told by the summary;
-    /// throws Error(project | output) where the run cannot be stored.
+    /// metadata, and in the pictures that come first (chooseScale()). `begun` hears of the run when it is in the
+    /// project; `also`, if given, sees every frame, and how far that look is. What goes wrong with the stream or the
+    /// chain is told by the summary; throws Error(project | output) where the run cannot be stored.
     LiveRunResult run(ChainObserver* also = nullptr, const Begun& begun = {});
 
  private:
