@@ -114,8 +114,9 @@ int runLiveCommand(const LiveArguments& arguments) {
         if (arguments.quiet || record.scale.gsd_known) return;
         const ScaleBasis& basis = record.scale_basis;
         if (basis.origin == ScaleOrigin::estimated)
-            std::fprintf(stderr, "%s\n",
-                         estimateText({record.scale.gsd_m_per_px, basis.uncertainty.value_or(1), basis.vehicles}).c_str());
+            std::fprintf(
+                stderr, "%s\n",
+                estimateText({record.scale.gsd_m_per_px, basis.uncertainty.value_or(1), basis.vehicles}).c_str());
         else
             std::fprintf(stderr, "GSD unknown: working with %s m/px; --gsd says what it is\n",
                          fixedText(record.scale.gsd_m_per_px, 2).c_str());
