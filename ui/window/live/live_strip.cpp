@@ -91,6 +91,7 @@ void LiveStrip::refresh() {
         tr("Where the chain is slower than the source, it takes fewer corners first; where that is not "
            "enough, frames are left out of it. The recording has all of them."));
     recording_->setText(liveRecordingText(facts));
+    recording_->setMinimumWidth(std::min(recording_->sizeHint().width(), width() / 4));
     recording_->setToolTip(liveSpaceText(facts));
     QPalette coloured = palette();
     coloured.setColor(QPalette::WindowText, signalColour(signalOf(*status)));

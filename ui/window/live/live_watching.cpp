@@ -6,7 +6,6 @@
 
 #include "io/live/live_address.h"
 #include "widgets/wiring.h"
-#include "window/live/live_dialog.h"
 #include "window/run_guard.h"
 #include "window/window_settings.h"
 #include "workspace/window_actions.h"

@@ -5,12 +5,12 @@
 #include <functional>
 
 #include "session/project_session.h"
+#include "window/live/live_dialog.h"
 
 class QMainWindow;
 
 namespace eyrie::ui {
 
-class LiveDialog;
 class RunGuard;
 class WindowActions;
 class WindowSettings;
