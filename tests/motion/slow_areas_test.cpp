@@ -380,4 +380,38 @@ TEST(SlowAreas, PathsThatNoCameraFliesAreNotFollowed) {
     EXPECT_EQ(inferred({1, 0, 0, 0, 1, -1300, 0, 0, 1}), 0U);
 }
 
+TEST(SlowAreas, TheHorizonMustNotComeNearThePicture) {
+    // Plain ground looks the same however the camera tilts, and so does a car about which it tilts.
+    DrivenGround scene;
+    scene.ground_contrast = 0;
+    scene.noise = 0.5;
+    scene.camera_per_frame = 0;
+    const cv::Point2d car(40, 40);
+    scene.vehicles = {{car, {1.5, 0}}};
+    const auto seenWith = [&](cv::Point2d tilt) {
+        cv::Matx33d step(1, 0, 0, 0, 1, 0, tilt.x, tilt.y, 1);
+        step = cv::Matx33d(1, 0, car.x, 0, 1, car.y, 0, 0, 1) * step * cv::Matx33d(1, 0, -car.x, 0, 1, -car.y, 0, 0, 1);
+        MovingAreas areas({}, {0.32, 25, true});
+        for (int i = 0; i < 7; ++i) {
+            Registration registration = scene.registration(i);
+            if (i == 1) registration.current_from_previous.matrix = step * (1 / step(2, 2));
+            areas.add(scene.frame(i), registration);
+        }
+        FrameMotion motion;
+        motion.image_size = scene.size;
+        motion.corner_count = 100;
+        return !areas.infer(motion, [](cv::Point2d) { return 0.1; }).empty();
+    };
+    // The tilt with which the ground at the far side is `times` as far away as that at the corner (0, 0).
+    const auto tilt = [](double size, double middle, double times) {
+        return (1 - 1 / times) / (size - middle + middle / times);
+    };
+    for (const int sign : {-1, 1}) {
+        EXPECT_TRUE(seenWith({sign * tilt(150, car.x, 4.7), 0})) << sign;
+        EXPECT_FALSE(seenWith({sign * tilt(150, car.x, 5.3), 0})) << sign;
+        EXPECT_TRUE(seenWith({0, sign * tilt(120, car.y, 4.7)})) << sign;
+        EXPECT_FALSE(seenWith({0, sign * tilt(120, car.y, 5.3)})) << sign;
+    }
+}
+
 }  // namespace eyrie::slow_areas_test
