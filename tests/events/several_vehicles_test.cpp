@@ -185,6 +185,17 @@ TEST(Meetings, AQueueIsNone) {
     EXPECT_EQ(scene.events(EventKind::meeting, options).size(), 2U);
 }
 
+TEST(Meetings, WhereSomeoneComesFromIsHowHeDroveLast) {
+    DrivenTracks scene;
+    scene.drive({100 - 58.3, 60}, 0, {{5, 30, 30}, {4, 30, 0}, {10, 0, 0}, {4, 0, 30}});
+    // Comes towards the other and turns about, three seconds before he stands 3 m beside him.
+    scene.drive({111.1, 67.6}, 180, {{3, 20, 20}, {3, 20, 20, 60}, {2, 20, 0}, {11, 0, 0}, {4, 0, 30}});
+    EXPECT_THAT(scene.events(EventKind::meeting), IsEmpty());
+    EventOptions options;
+    options.meeting_angle_deg = 0;
+    EXPECT_EQ(scene.events(EventKind::meeting, options).size(), 1U);
+}
+
 TEST(Meetings, PassingEachOtherOrStandingFarApartIsNone) {
     DrivenTracks scene;
     const std::vector<Leg> come = {{5, 30, 30}, {4, 30, 0}, {10, 0, 0}, {4, 0, 30}};
