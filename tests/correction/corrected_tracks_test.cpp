@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/geometry/angle.h"
 #include "core/review/track_correction.h"
 #include "correction/driven_states.h"
 
@@ -67,6 +68,23 @@ TEST(CorrectedTracks, AJoinOverAGapIsOneTrackThatGoesStraightOnTheGroundMeanwhil
             EXPECT_DOUBLE_EQ(each.state.score, 0.57) << "the surer part tells";
         }
         EXPECT_EQ(track.states.back().state.hits, 41) << "ten frames were not seen";
+    }
+}
+
+TEST(CorrectedTracks, InAGapTheBoxGrowsAndTurnsEvenly) {
+    auto early = drivenStates(3, 0, 20, 10), late = drivenStates(7, 31, 50, 10);
+    for (TrackFrame& each : early) each.state.box.heading = 3.1;
+    for (TrackFrame& each : late) {
+        each.state.box.length = 10 + 11;
+        each.state.box.width = 5 + 2.2;
+        each.state.box.heading = wrapPi(3.1 + 0.22);
+    }
+    const CorrectedTracks result = corrected(runOf({{3, early}, {7, late}}), {joinOf(early, late)});
+    for (const TrackFrame& each : result.track(3)->states) {
+        const double gone = std::clamp<double>(each.frame - 20, 0, 11);
+        EXPECT_NEAR(each.state.box.length, 10 + gone, 1e-9) << each.frame;
+        EXPECT_NEAR(each.state.box.width, 5 + 0.2 * gone, 1e-9) << each.frame;
+        EXPECT_NEAR(turnBetween(3.1, each.state.box.heading), 0.02 * gone, 1e-9) << each.frame;
     }
 }
 
