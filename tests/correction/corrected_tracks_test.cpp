@@ -137,11 +137,25 @@ TEST(CorrectedTracks, WhereBothAreWhatWasSeenCountsBeforeWhatWasPredicted) {
 
 TEST(CorrectedTracks, TwoTracksOfOneVehicleOfWhichOneHoldsTheOtherAreJoined) {
     const auto all = drivenStates(3, 0, 50, 10), part = drivenStates(7, 20, 30, 11);
+    for (const TrackCorrection& join : {joinOf(part, all), joinOf(all, part)}) {  // whichever was selected first
+        EXPECT_EQ(join.frame, 20) << "where the other one begins";
+        EXPECT_EQ(join.track.front().frame, 0);
+    }
     const CorrectedTracks result = corrected(runOf({{3, all}, {7, part}}), {joinOf(part, all)});
     EXPECT_THAT(result.replaced, ElementsAre(3, 7));
     expectWhole(*result.track(3), 3, 0, 50);
     for (const TrackFrame& each : result.track(3)->states)
         EXPECT_NEAR(each.state.box.centre.x, 10 + 2 * each.frame, 1e-9);
+}
+
+TEST(CorrectedTracks, TheIdIsThatOfTheOneThatBeganFirstInThisRun) {
+    // When they were joined track 3 began first; another run saw it later.
+    const auto all = drivenStates(3, 0, 50, 10), part = drivenStates(7, 18, 30, 11);
+    const auto late = drivenStates(3, 22, 50, 10);
+    const CorrectedTracks result = corrected(runOf({{3, late}, {7, part}}), {joinOf(all, part)});
+    EXPECT_THAT(result.replaced, ElementsAre(3, 7));
+    ASSERT_NE(result.track(7), nullptr);
+    expectWhole(*result.track(7), 7, 18, 50);
 }
 
 TEST(CorrectedTracks, TwoThatAreInDifferentPlacesAtOneTimeAreNotJoined) {
