@@ -63,6 +63,7 @@ void GroundMosaic::layOut(const MosaicOptions& options) {
     struct Extent {
         double left = 0, top = 0, right = 0, bottom = 0;
         bool any = false;
+        cv::Rect2d area() const { return {cv::Point2d(left, top), cv::Point2d(right, bottom)}; }
     };
     std::vector<Extent> extents(static_cast<std::size_t>(sheets_->count()));
     for (FrameIndex frame = sheets_->firstFrame(); frame <= sheets_->lastFrame(); ++frame) {
@@ -78,14 +79,14 @@ void GroundMosaic::layOut(const MosaicOptions& options) {
     double area = 0;
     double longest = 1;
     for (const Extent& extent : extents) {
-        area += (extent.right - extent.left) * (extent.bottom - extent.top);
-        longest = std::max({longest, extent.right - extent.left, extent.bottom - extent.top});
+        area += extent.area().area();
+        longest = std::max({longest, extent.area().width, extent.area().height});
     }
     const double budget = static_cast<double>(std::max<std::int64_t>(1, options.max_pixels));
     const double scale = std::min({1.0, std::sqrt(budget / std::max(1.0, area)), kLongestSide / longest});
     for (const Extent& extent : extents) {
         MosaicSheet sheet;
-        sheet.area = {extent.left, extent.top, extent.right - extent.left, extent.bottom - extent.top};
+        sheet.area = extent.area();
         sheet.px_per_unit = scale;
         const cv::Size size(std::max(1, static_cast<int>(std::floor(sheet.area.width * scale))),
                             std::max(1, static_cast<int>(std::floor(sheet.area.height * scale))));

@@ -13,7 +13,6 @@ namespace {
 
 constexpr double kMostOnStation = 2;    ///< enlargement of a corner beside the frame it is laid on
 constexpr double kMostStretched = 1.6;  ///< in any direction in the middle, beside that frame
-constexpr double kMostOnSheet = 4;      ///< enlargement of a whole picture beside the anchor
 
 /// The map that moves and turns all as `map` does at a place, and enlarges by half as much in steps of zoom: views from
 /// another side make things smaller on the ground than they are, which would add up over a long flight.
@@ -69,7 +68,7 @@ void GroundSheets::lay(const CameraMotion& camera, int direction) {
             sheet_from_station = similarityAt(sheetFromImage(station), middle);
             map = laid(frame);
         }
-        if (!map || !isSoundMap(*map, image_, kMostOnStation * kMostOnSheet)) {
+        if (!map) {
             station = frame;
             sheet_from_station = cv::Matx33d::eye();
             sheet += direction;

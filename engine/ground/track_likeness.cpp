@@ -126,10 +126,10 @@ class PathMaker {
         const int steps = std::clamp(static_cast<int>(way.back() / kLeastStep_m), 1, kMostSteps);
         std::vector<PathPlace> places;
         places.reserve(static_cast<std::size_t>(steps) + 1);
-        std::size_t next = 1;
         for (int i = 0; i <= steps; ++i) {
             const double at = way.back() * i / steps;
-            while (next + 1 < way.size() && way[next] < at) ++next;
+            const auto after = std::lower_bound(way.begin() + 1, way.end() - 1, at);
+            const auto next = static_cast<std::size_t>(after - way.begin());
             const double span = way[next] - way[next - 1];
             const double share = span > 0 ? std::clamp((at - way[next - 1]) / span, 0.0, 1.0) : 0;
             const PathPlace& a = driven[next - 1];

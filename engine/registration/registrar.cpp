@@ -176,16 +176,17 @@ std::optional<Registrar::Match> Registrar::registerOnto(const Anchor& anchor, Re
         return std::nullopt;
     }
     auto fit = estimator_->refine(points, start);
+    const auto inliersOf = [](const std::optional<HomographyFit>& each) { return each ? each->inliers : 0; };
     if (!fit || !estimator_->trustworthy(*fit)) {
         const auto sampled =
             estimator_->search(points, MotionModel::homography, options_.homography.inlier_distance_px);
         if (sampled) {
             const auto second = estimator_->refine(points, *sampled);
-            if (second && (!fit || second->inliers > fit->inliers)) fit = second;
+            if (inliersOf(second) > inliersOf(fit)) fit = second;
         }
     }
     if (!fit || !estimator_->trustworthy(*fit)) {
-        failure = {.fault = RegistrationFault::too_few_agree, .count = fit ? fit->inliers : 0, .of = tracked};
+        failure = {.fault = RegistrationFault::too_few_agree, .count = inliersOf(fit), .of = tracked};
         return std::nullopt;
     }
     if (!plausibleMotion(fit->matrix, anchor.pyramid.size())) {

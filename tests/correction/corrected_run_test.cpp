@@ -77,6 +77,9 @@ TEST_F(CorrectedRun, IsReadAlikeInEveryWay) {
         EXPECT_EQ(track.frames, static_cast<int>(states.size()));
         EXPECT_NEAR(track.mean_speed_px, 2, 1e-4);
         EXPECT_NEAR(track.mean_length_px, 10, 1e-4);
+        EXPECT_NEAR(track.mean_width_px, 5, 1e-4);
+        if (!track.corrected) continue;
+        EXPECT_NEAR(track.place.x, (states.front().state.box.centre.x + states.back().state.box.centre.x) / 2, 0.01);
     }
     EXPECT_EQ(summaries[0].corrected, CorrectionKind::join);
     EXPECT_EQ(summaries[1].corrected, std::nullopt);

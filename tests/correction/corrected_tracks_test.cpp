@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/geometry/angle.h"
 #include "core/review/track_correction.h"
 #include "correction/driven_states.h"
 
@@ -70,6 +71,23 @@ TEST(CorrectedTracks, AJoinOverAGapIsOneTrackThatGoesStraightOnTheGroundMeanwhil
     }
 }
 
+TEST(CorrectedTracks, InAGapTheBoxGrowsAndTurnsEvenly) {
+    auto early = drivenStates(3, 0, 20, 10), late = drivenStates(7, 31, 50, 10);
+    for (TrackFrame& each : early) each.state.box.heading = 3.1;
+    for (TrackFrame& each : late) {
+        each.state.box.length = 10 + 11;
+        each.state.box.width = 5 + 2.2;
+        each.state.box.heading = wrapPi(3.1 + 0.22);
+    }
+    const CorrectedTracks result = corrected(runOf({{3, early}, {7, late}}), {joinOf(early, late)});
+    for (const TrackFrame& each : result.track(3)->states) {
+        const double gone = std::clamp<double>(each.frame - 20, 0, 11);
+        EXPECT_NEAR(each.state.box.length, 10 + gone, 1e-9) << each.frame;
+        EXPECT_NEAR(each.state.box.width, 5 + 0.2 * gone, 1e-9) << each.frame;
+        EXPECT_NEAR(turnBetween(3.1, each.state.box.heading), 0.02 * gone, 1e-9) << each.frame;
+    }
+}
+
 TEST(CorrectedTracks, AGapIsFilledOverTheGroundWhereTheCameraMoves) {
     // The camera drifts 3 px a frame to the left: what stands moves so in the picture.
     std::vector<Homography> steps;
@@ -119,11 +137,25 @@ TEST(CorrectedTracks, WhereBothAreWhatWasSeenCountsBeforeWhatWasPredicted) {
 
 TEST(CorrectedTracks, TwoTracksOfOneVehicleOfWhichOneHoldsTheOtherAreJoined) {
     const auto all = drivenStates(3, 0, 50, 10), part = drivenStates(7, 20, 30, 11);
+    for (const TrackCorrection& join : {joinOf(part, all), joinOf(all, part)}) {  // whichever was selected first
+        EXPECT_EQ(join.frame, 20) << "where the other one begins";
+        EXPECT_EQ(join.track.front().frame, 0);
+    }
     const CorrectedTracks result = corrected(runOf({{3, all}, {7, part}}), {joinOf(part, all)});
     EXPECT_THAT(result.replaced, ElementsAre(3, 7));
     expectWhole(*result.track(3), 3, 0, 50);
     for (const TrackFrame& each : result.track(3)->states)
         EXPECT_NEAR(each.state.box.centre.x, 10 + 2 * each.frame, 1e-9);
+}
+
+TEST(CorrectedTracks, TheIdIsThatOfTheOneThatBeganFirstInThisRun) {
+    // When they were joined track 3 began first; another run saw it later.
+    const auto all = drivenStates(3, 0, 50, 10), part = drivenStates(7, 18, 30, 11);
+    const auto late = drivenStates(3, 22, 50, 10);
+    const CorrectedTracks result = corrected(runOf({{3, late}, {7, part}}), {joinOf(all, part)});
+    EXPECT_THAT(result.replaced, ElementsAre(3, 7));
+    ASSERT_NE(result.track(7), nullptr);
+    expectWhole(*result.track(7), 7, 18, 50);
 }
 
 TEST(CorrectedTracks, TwoThatAreInDifferentPlacesAtOneTimeAreNotJoined) {

@@ -82,6 +82,19 @@ TEST(ComponentBoxes, JoinsFrontAndRearOfOneVehicleButNotTwoVehicles) {
     EXPECT_EQ(boxes[1], cv::Rect2d(19.5, 89.5, 16, 8));
 }
 
+TEST(ComponentBoxes, JoinsFrontAndRearPastAnotherVehicleBeside) {
+    Scene scene;
+    scene.binary(cv::Rect(5, 20, 16, 8)).setTo(255);
+    scene.binary(cv::Rect(40, 22, 16, 8)).setTo(255);  // found between front and rear
+    scene.binary(cv::Rect(5, 55, 16, 8)).setTo(255);
+    GradientOptions options = bare();
+    options.join_components = true;
+    const auto boxes = scene.select(options);
+    ASSERT_EQ(boxes.size(), 2U);
+    EXPECT_EQ(boxes[0], cv::Rect2d(4.5, 19.5, 16, 43));
+    EXPECT_EQ(boxes[1], cv::Rect2d(39.5, 21.5, 16, 8));
+}
+
 TEST(ComponentBoxes, DoNotGrowFarBeyondTheirVectors) {
     Scene scene;
     scene.binary(cv::Rect(20, 20, 16, 80)).setTo(255);

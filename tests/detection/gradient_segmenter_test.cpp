@@ -69,6 +69,8 @@ TEST(GradientSegmenter, TheQuantileIsTakenAroundVectorsOnePixelAtLeast) {
     EXPECT_EQ(counted(QuantileArea::vectors, 0), 5) << "the pixel and those beside it";
     EXPECT_EQ(counted(QuantileArea::box, 0), 9);
     EXPECT_EQ(counted(QuantileArea::box, 2 * kContractScale.gsd_m_per_px), 25);
+    roi.vectors = {{20, 30}, {25, 32}};
+    EXPECT_EQ(counted(QuantileArea::box, 0), 8 * 5) << "from 19 to 26 and from 29 to 33";
 }
 
 TEST(GradientSegmenter, FallsBackToTheClusterWhereNothingIsSeen) {

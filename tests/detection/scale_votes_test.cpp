@@ -116,6 +116,22 @@ TEST(ScaleVotes, AVehicleIsFilledByItsVectors) {
     EXPECT_FALSE(votes(scene, {{-16, -6}, {16, 6}, {16, -6}})) << "fewer than four";
 }
 
+TEST(ScaleVotes, AVectorLiesUpToAPixelBesideItsVehicle) {
+    const DrivenScene scene = drivenScene(0.8);
+    const std::vector<cv::Point2d> middle{{-13, -5}, {13, 5}, {0, 0}};  // with another, just enough
+    for (const int side : {-1, 1}) {
+        const auto withOneMore = [&](double ahead, double beside) {
+            std::vector<cv::Point2d> places = middle;
+            places.emplace_back(side * ahead, side * beside);
+            return places;
+        };
+        EXPECT_TRUE(votes(scene, withOneMore(20.6, 0))) << side;
+        EXPECT_FALSE(votes(scene, withOneMore(21.4, 0))) << side;
+        EXPECT_TRUE(votes(scene, withOneMore(0, 8.6))) << side;
+        EXPECT_FALSE(votes(scene, withOneMore(0, 9.4))) << side;
+    }
+}
+
 TEST(ScaleVotes, WhatGoesOnBesideTheWindowIsSomethingLarger) {
     const DrivenScene scene = drivenScene(0.8);
     // Beyond the 20 px of half a length and one of margin: 6 px are its surroundings; along the width 8, 1 and 2.4.

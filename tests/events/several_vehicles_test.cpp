@@ -58,6 +58,24 @@ TEST(Flow, ChangingToTheWrongLaneIsFoundWhereItHappens) {
     EXPECT_NEAR(events[0].frame, 305 + 25 * (4 + 3 + 2), 25);
 }
 
+TEST(Flow, AMomentOfWhichNothingIsKnownPartsNoDriveInTwo) {
+    // All others were lost in the middle of the picture, and found again behind it.
+    const auto driveAgainst = [](double unknown_m) {
+        DrivenTracks scene;
+        for (int i = 0; i < 8; ++i) {
+            scene.drive({199, 60}, 180, {{12, 50, 50}}, 40 * i);
+            scene.cutAfter((99 - unknown_m / 2) / (50 / 3.6));
+            scene.drive({100 - unknown_m / 2, 60}, 180, {{12, 50, 50}}, 40 * i + 200);
+        }
+        scene.drive({-10, 60}, 0, {{40, 40, 40}}, 300);
+        EventOptions options;
+        options.off_flow_m = 15;  // nobody is off it
+        return scene.events(EventKind::against_flow, options).size();
+    };
+    EXPECT_EQ(driveAgainst(9), 1U) << "half a second";
+    EXPECT_EQ(driveAgainst(26), 2U) << "two seconds";
+}
+
 TEST(Flow, NothingIsToldWhereTooFewDrive) {
     DrivenTracks scene;
     for (int i = 0; i < 4; ++i) scene.drive({-10, 62}, 0, {{40, 45, 45}}, 40 * i);
@@ -108,7 +126,9 @@ TEST(Convoys, TwoAreNone) {
     EXPECT_THAT(scene.events(EventKind::convoy), IsEmpty());
     EventOptions options;
     options.convoy_vehicles = 2;
-    EXPECT_EQ(scene.events(EventKind::convoy, options).size(), 1U);
+    const auto events = scene.events(EventKind::convoy, options);
+    ASSERT_EQ(events.size(), 1U);
+    EXPECT_NEAR(events[0].frame, (events[0].first_frame + events[0].last_frame) / 2, 1) << "shown in its middle";
 }
 
 TEST(Convoys, ThoseWhoDriveTheOtherWayOrBesideDoNotBelongToIt) {
@@ -119,6 +139,24 @@ TEST(Convoys, ThoseWhoDriveTheOtherWayOrBesideDoNotBelongToIt) {
     scene.drive({30, 44}, 0, {{28, 20, 20}});       // beside
     scene.drive({150, 36.5}, 180, {{28, 20, 20}});  // oncoming
     EXPECT_THAT(scene.events(EventKind::convoy), IsEmpty());
+}
+
+TEST(Convoys, WhoDrivesMoreThanTwiceAsFastFollowsNobody) {
+    EventOptions options;
+    options.convoy_vehicles = 2;
+    options.convoy_time_s = 2;
+    options.convoy_spread = 10;
+    const auto convoys = [&](double leader_kmh, double follower_kmh, double behind_m) {
+        DrivenTracks scene;
+        scene.frames = 200;
+        scene.drive({80, 40}, 0, {{8, leader_kmh, leader_kmh}});
+        scene.drive({80 - behind_m, 40}, 0, {{8, follower_kmh, follower_kmh}});
+        return scene.events(EventKind::convoy, options).size();
+    };
+    EXPECT_EQ(convoys(20, 37, 40), 1U);
+    EXPECT_EQ(convoys(20, 44, 40), 0U);
+    EXPECT_EQ(convoys(37, 20, 8), 1U);
+    EXPECT_EQ(convoys(44, 20, 8), 0U);
 }
 
 TEST(Meetings, TwoFromDifferentDirectionsStandSideBySide) {
@@ -145,6 +183,17 @@ TEST(Meetings, AQueueIsNone) {
     EventOptions options;
     options.meeting_angle_deg = 0;
     EXPECT_EQ(scene.events(EventKind::meeting, options).size(), 2U);
+}
+
+TEST(Meetings, WhereSomeoneComesFromIsHowHeDroveLast) {
+    DrivenTracks scene;
+    scene.drive({100 - 58.3, 60}, 0, {{5, 30, 30}, {4, 30, 0}, {10, 0, 0}, {4, 0, 30}});
+    // Comes towards the other and turns about, three seconds before he stands 3 m beside him.
+    scene.drive({111.1, 67.6}, 180, {{3, 20, 20}, {3, 20, 20, 60}, {2, 20, 0}, {11, 0, 0}, {4, 0, 30}});
+    EXPECT_THAT(scene.events(EventKind::meeting), IsEmpty());
+    EventOptions options;
+    options.meeting_angle_deg = 0;
+    EXPECT_EQ(scene.events(EventKind::meeting, options).size(), 1U);
 }
 
 TEST(Meetings, PassingEachOtherOrStandingFarApartIsNone) {

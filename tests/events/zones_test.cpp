@@ -134,6 +134,9 @@ TEST_F(ZoneSteps, WhatIsThereAlreadyIsNotAddedAgain) {
     EXPECT_EQ(set_.zones.at(1).person, "Ada");
     EXPECT_EQ(zonesOf(set_.zones), (std::vector<Zone>{square(), line()}));
     EXPECT_TRUE(added({square(), line()}).empty());
+    Zone more = line();
+    more.name = "more";
+    EXPECT_EQ(added({square(), more}).name, "Add line \"more\"") << "the rest of the file is";
     Zone late = square();
     late.name = "late";
     late.frame = 20'000'001;  // no project could be read that held it

@@ -133,6 +133,42 @@ TEST(GroundMosaic, RefusesPicturesOfAnotherVideo) {
     EXPECT_TRUE(GroundMosaic(std::make_shared<const GroundSheets>()).sheets().empty());
 }
 
+TEST(GroundMosaic, AStandingPictureStaysAsItIsInItsColours) {
+    const auto standing = [](double) { return cv::Matx33d::eye(); };
+    const auto sheets = std::make_shared<const GroundSheets>(flightOver(standing, 20), 0);
+    GroundMosaic coloured(sheets);
+    GroundMosaic grey(sheets, {.colour = false});
+    Frame frame = filmed(standing, 0);
+    frame.colour.create(frame.gray.size(), CV_8UC3);
+    frame.colour.setTo(cv::Scalar(20, 130, 240));
+    for (frame.index = 0; frame.index <= 20; ++frame.index) {
+        coloured.paint(frame);
+        grey.paint(frame);
+    }
+    EXPECT_EQ(cv::norm(coloured.sheets()[0].picture, frame.colour, cv::NORM_INF), 0);
+    EXPECT_EQ(cv::norm(grey.sheets()[0].picture, frame.gray, cv::NORM_INF), 0);
+    // A camera without colours, on a sheet that has them.
+    frame.colour.release();
+    for (frame.index = 0; frame.index <= 20; ++frame.index) coloured.paint(frame);
+    const cv::Vec3b middle = coloured.sheets()[0].picture.at<cv::Vec3b>(60, 100);
+    EXPECT_EQ(middle, cv::Vec3b::all(frame.gray.at<uchar>(60, 100)));
+}
+
+TEST(GroundMosaic, NoSideIsLongerThanPicturesMayBe) {
+    // Left, right, up and down, for more pixels than the limit of 16,000, in sheets that need not be coarse otherwise.
+    for (const cv::Point2d way : {cv::Point2d(1, 0), cv::Point2d(-1, 0), cv::Point2d(0, 1), cv::Point2d(0, -1)}) {
+        const auto view = [&](double frame) {
+            return cv::Matx33d(1, 0, 50 * way.x * frame, 0, 1, 50 * way.y * frame, 0, 0, 1);
+        };
+        const auto sheets = std::make_shared<const GroundSheets>(flightOver(view, 400), 0);
+        ASSERT_EQ(sheets->count(), 1);
+        const cv::Mat picture =
+            GroundMosaic(sheets, {.max_pixels = 1'000'000'000, .colour = false}).sheets()[0].picture;
+        EXPECT_LE(std::max(picture.cols, picture.rows), 16'000) << way;
+        EXPECT_GE(std::max(picture.cols, picture.rows), 15'990) << way;
+    }
+}
+
 TEST(PlaceHistory, TellsWhenAPlaceWasSeenAndWhoCrossedIt) {
     const auto view = [](double frame) { return cv::Matx33d(1, 0, -2 * frame, 0, 1, 0, 0, 0, 1); };
     Footage footage = flightOver(view, 200);
@@ -162,6 +198,22 @@ TEST(PlaceHistory, WhoCrossesAPlaceIsNamedHoweverFastAndHoweverTheCameraMoves) {
     // 10 long and with 1 to spare: from 54 to 66, at 2 a frame.
     EXPECT_NEAR(history.passed[1].frames.first, 27, 1);
     EXPECT_NEAR(history.passed[1].frames.last, 33, 1);
+}
+
+TEST(PlaceHistory, WhoCrossesIsAsWideAsOnTheGroundWhateverTheZoom) {
+    const auto view = [](double frame) {
+        const double zoom = 1 + 0.0125 * frame;
+        return cv::Matx33d(zoom, 0, 0, 0, zoom, 0, 0, 0, 1);
+    };
+    const GroundSheets sheets(flightOver(view, 50), 0);
+    const auto crosses = [&](double beside) {
+        EventTrack fast{1, {}};  // 10 by 10; at 50 in frame 40 and at 75 in the next
+        for (int i = 38; i <= 42; ++i)
+            fast.boxes.push_back({i, test::seen({{25.0 * (i - 38), 40 + beside}, 10, 10, 0}, view(i))});
+        return !placeHistory(sheets, {fast}, 0, {62.5, 40}, 1).passed.empty();
+    };
+    EXPECT_TRUE(crosses(5.5));
+    EXPECT_FALSE(crosses(6.5));
 }
 
 TEST(PlaceHistory, WaysLieOnTheSheet) {

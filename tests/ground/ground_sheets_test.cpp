@@ -58,6 +58,8 @@ TEST(GroundSheets, RotationAndZoomStaySteadyOverAFlightThatNoPlaneHolds) {
     const GroundSheets sheets(flownOver(view, 600), 0);
     EXPECT_EQ(sheets.count(), 1);
     cv::Point2d before(0, 0);
+    cv::Point2d over(0, 0);
+    cv::Point2d ground_before(0, 0);
     int leaps = 0;
     for (int frame = 0; frame <= 600; ++frame) {
         // What lies in the middle of the picture: its direction and size on the sheet change by little from frame to
@@ -73,6 +75,12 @@ TEST(GroundSheets, RotationAndZoomStaySteadyOverAFlightThatNoPlaneHolds) {
         EXPECT_GT(distance(north, {0, 0}), 0.4) << frame;
         EXPECT_LT(distance(north, {0, 0}), 1.6) << frame;
         before = north;
+        // Nor does it leap aside: it goes on by about as much as the camera did over the ground.
+        const cv::Point2d there = HomographyJacobian(sheets.sheetFromImage(frame), middle).point();
+        const double flown = distance(to_ground.point(), ground_before);
+        EXPECT_LT(frame == 0 ? 0 : distance(there, over), 2 * flown) << frame;
+        ground_before = to_ground.point();
+        over = there;
     }
     EXPECT_LE(leaps, 8);
 }
@@ -113,6 +121,7 @@ TEST(GroundSheets, WithoutFramesNothingIsMoved) {
     empty.last_frame = 4;
     EXPECT_EQ(GroundSheets(empty, 9).count(), 0);
     EXPECT_EQ(GroundSheets(flownOver(test::flyingView, 10), 99).anchor(), 10);
+    EXPECT_EQ(GroundSheets(flownOver(test::flyingView, 0), 0).count(), 1) << "a single frame has one";
 }
 
 }  // namespace eyrie::ground_sheets_test

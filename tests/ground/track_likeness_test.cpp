@@ -157,6 +157,30 @@ TEST(TrackLikeness, AKnownScaleHoldsWhateverDrives) {
     EXPECT_NEAR(likeFirst(runWith(scene)).front().path, std::exp(-0.5), 0.03) << "lorries on lanes of 3 m";
 }
 
+TEST(TrackLikeness, WhoNeverMetIsComparedByTheSpeedsOfWholeDrives) {
+    test::DrivenTracks scene;
+    scene.follow(straight({20, 60}, 0, 36, 12));
+    scene.follow(straight({20, 100}, 0, 18, 12));
+    EXPECT_NEAR(likeFirst(runWith(scene)).front().speed, std::exp(-0.5 * std::pow(std::log(11 / 6.0) / 0.4, 2)), 0.03);
+}
+
+TEST(TrackLikeness, PicturesMayBeFewAndTakenAnywhereOnTheWay) {
+    test::DrivenTracks scene;
+    scene.scale.frame_rate_hz = 1;
+    scene.frames = 30;
+    scene.noise_px = 0;
+    const auto speedsUp = [](double from_s) {
+        std::vector<std::pair<cv::Point2d, double>> poses;
+        for (double t = from_s; t <= 6.5; t += 1) poses.emplace_back(cv::Point2d(20 + 3 * t + 2 * t * t, 60), 0);
+        return poses;
+    };
+    scene.follow(speedsUp(0));
+    scene.follow(speedsUp(0.5), 10);
+    const TrackLikeness found = likeFirst(runWith(scene)).front();
+    EXPECT_GT(found.path, 0.95);
+    EXPECT_GT(found.speed, 0.95);
+}
+
 TEST(TrackLikeness, NothingIsToldAcrossGroundsThatDoNotConnect) {
     test::DrivenTracks scene;
     scene.follow(straight({20, 60}, 0, 36, 12));

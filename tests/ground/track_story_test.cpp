@@ -88,6 +88,9 @@ TEST(TrackStory, AChipShowsThePlaceInItsMiddle) {
     EXPECT_EQ(cv::countNonZero(chip), 1);
     EXPECT_EQ(chipOf(picture, {70, 30}, 10, 40).size(), cv::Size(40, 40));
     EXPECT_EQ(cv::countNonZero(chipOf(picture, {-90, -90}, 20, 20)), 0);
+    const cv::Mat pixel = chipOf(picture, {70, 30}, 1, 1);
+    ASSERT_EQ(pixel.size(), cv::Size(1, 1));
+    EXPECT_EQ(pixel.at<uchar>(0, 0), 200);
     EXPECT_TRUE(chipOf(cv::Mat(), {0, 0}, 20, 20).empty());
     EXPECT_TRUE(chipOf(picture, {0, 0}, 0, 20).empty());
 }

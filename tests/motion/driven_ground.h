@@ -23,8 +23,10 @@ struct DrivenGround {
     double ground_contrast = 0.5;
     double noise = 1;
     std::vector<Vehicle> vehicles;
+    double camera_per_frame = 1;  ///< how far it goes; below 0 the other way
 
-    cv::Matx33d pictureFromGround(int frame) const {
+    cv::Matx33d pictureFromGround(int index) const {
+        const double frame = camera_per_frame * index;
         cv::Matx33d m = cameraMotion(size, 1.1 * frame, -0.6 * frame, 0.35 * frame, 1 + 0.002 * frame);
         m(2, 0) = 2e-6 * frame;
         m(2, 1) = -3e-6 * frame;

@@ -287,6 +287,12 @@ DrivenGround carScene(unsigned variant) {
                       {{40, 90}, {0.5, 0}, {16, 7}, 220},
                       {{100, 35}, {0.2, 1.4}, {6, 12}, 30, 0.5}};
     if (variant == 1) scene.size = {151, 121};
+    if (variant == 2) {
+        // Ground comes into view on the right and above, where it is looked at but for the border.
+        scene.camera_per_frame = -1;
+        scene.vehicles.push_back({{148, 50}, {0.3, 1.6}});
+        scene.vehicles.push_back({{75, -6}, {1.6, 0.2}});
+    }
     return scene;
 }
 
@@ -295,7 +301,7 @@ DrivenGround carScene(unsigned variant) {
 TEST(SlowAreas, VectorsAreThoseOfAreasThatWentSomewhere) {
     std::size_t vectors = 0;
     std::set<std::size_t> counts;
-    for (unsigned variant = 0; variant < 2; ++variant) {
+    for (unsigned variant = 0; variant < 3; ++variant) {
         const DrivenGround scene = carScene(variant);
         std::vector<cv::Mat> pictures;
         for (int i = 0; i < 9; ++i) pictures.push_back(scene.draw(i));
@@ -372,6 +378,40 @@ TEST(SlowAreas, PathsThatNoCameraFliesAreNotFollowed) {
     EXPECT_EQ(inferred({1, 0, 0, 0, 1, 0, 0, 0.02, 1}), 0U);
     EXPECT_EQ(inferred({1, 0, 1600, 0, 1, 0, 0, 0, 1}), 0U);
     EXPECT_EQ(inferred({1, 0, 0, 0, 1, -1300, 0, 0, 1}), 0U);
+}
+
+TEST(SlowAreas, TheHorizonMustNotComeNearThePicture) {
+    // Plain ground looks the same however the camera tilts, and so does a car about which it tilts.
+    DrivenGround scene;
+    scene.ground_contrast = 0;
+    scene.noise = 0.5;
+    scene.camera_per_frame = 0;
+    const cv::Point2d car(40, 40);
+    scene.vehicles = {{car, {1.5, 0}}};
+    const auto seenWith = [&](cv::Point2d tilt) {
+        cv::Matx33d step(1, 0, 0, 0, 1, 0, tilt.x, tilt.y, 1);
+        step = cv::Matx33d(1, 0, car.x, 0, 1, car.y, 0, 0, 1) * step * cv::Matx33d(1, 0, -car.x, 0, 1, -car.y, 0, 0, 1);
+        MovingAreas areas({}, {0.32, 25, true});
+        for (int i = 0; i < 7; ++i) {
+            Registration registration = scene.registration(i);
+            if (i == 1) registration.current_from_previous.matrix = step * (1 / step(2, 2));
+            areas.add(scene.frame(i), registration);
+        }
+        FrameMotion motion;
+        motion.image_size = scene.size;
+        motion.corner_count = 100;
+        return !areas.infer(motion, [](cv::Point2d) { return 0.1; }).empty();
+    };
+    // The tilt with which the ground at the far side is `times` as far away as that at the corner (0, 0).
+    const auto tilt = [](double size, double middle, double times) {
+        return (1 - 1 / times) / (size - middle + middle / times);
+    };
+    for (const int sign : {-1, 1}) {
+        EXPECT_TRUE(seenWith({sign * tilt(150, car.x, 4.7), 0})) << sign;
+        EXPECT_FALSE(seenWith({sign * tilt(150, car.x, 5.3), 0})) << sign;
+        EXPECT_TRUE(seenWith({0, sign * tilt(120, car.y, 4.7)})) << sign;
+        EXPECT_FALSE(seenWith({0, sign * tilt(120, car.y, 5.3)})) << sign;
+    }
 }
 
 }  // namespace eyrie::slow_areas_test

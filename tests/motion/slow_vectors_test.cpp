@@ -682,6 +682,8 @@ TEST(SlowVectors, VehiclesAreLinkedByTheirSizeAndGroupedWithTheirMeans) {
     EXPECT_NEAR(groups[1].box.length, 4, 1e-6);
     EXPECT_NEAR(groups[1].box.width, 1, 1e-6);
     EXPECT_NEAR(groups[0].box.heading, std::atan2(0.02, 3.02), 1e-6);
+    EXPECT_EQ(groupVectors(vectors, {3}, linkage).size(), 1U) << "one alone, and no group of none";
+    EXPECT_TRUE(groupVectors(vectors, {}, linkage).empty());
 }
 
 }  // namespace eyrie::slow_vectors_test

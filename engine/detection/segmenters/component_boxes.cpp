@@ -121,12 +121,19 @@ void ComponentBoxes::join(std::vector<cv::Rect2d>& boxes) const {
 }
 
 cv::Rect2d ComponentBoxes::limited(const cv::Rect2d& box, const std::vector<cv::Point2f>& vectors) const {
-    if (growth_along_ <= 0 && growth_across_ <= 0) return box;
     const auto own = pointsWithin(box, vectors, kOutlineMargin);
     if (own.empty()) return box;
-    const double unlimited = 2 * (std::abs(box.x) + std::abs(box.y) + box.width + box.height) + 1e4;
-    return box & grown(boundsOf(own), growth_along_ > 0 ? growth_along_ : unlimited,
-                       growth_across_ > 0 ? growth_across_ : unlimited);
+    const cv::Rect2d near = grown(boundsOf(own), growth_along_, growth_across_);
+    cv::Rect2d allowed = box;
+    if (growth_along_ > 0) {
+        allowed.y = near.y;
+        allowed.height = near.height;
+    }
+    if (growth_across_ > 0) {
+        allowed.x = near.x;
+        allowed.width = near.width;
+    }
+    return box & allowed;
 }
 
 std::vector<cv::Rect2d> ComponentBoxes::select(const std::vector<Region>& regions, const cv::Mat& labels,

@@ -1,6 +1,5 @@
 #include "detection/segmenters/relative_connectivity.h"
 
-#include <algorithm>
 #include <vector>
 
 namespace eyrie {
@@ -12,7 +11,7 @@ void scanLine(const std::vector<uchar>& set, int min_points, std::vector<int>& l
     const auto at = [&](int x) { return x >= 0 && x < size && set[static_cast<std::size_t>(x)] != 0; };
     for (int first = 0; first < size; ++first) {
         if (!at(first)) continue;
-        const int farthest = std::min((size - first) / (min_points - 1), size - 1 - first);
+        const int farthest = (size - 1 - first) / (min_points - 1);  // farther apart, fewer than that many fit
         for (int step = 1; step <= farthest; ++step) {
             if (!at(first + step) || at(first - step)) continue;
             int points = 2;

@@ -79,8 +79,8 @@ double GroundStretches::metresHere(FrameIndex frame, cv::Point2d image) const {
 }
 
 bool GroundStretches::inImage(cv::Point2d image) const {
-    return image.x >= -0.5 && image.y >= -0.5 && image.x <= footage_.image_size.width - 0.5 &&
-           image.y <= footage_.image_size.height - 0.5;
+    const cv::Rect2d picture({-0.5, -0.5}, cv::Size2d(footage_.image_size));
+    return picture.contains(image);
 }
 
 }  // namespace eyrie

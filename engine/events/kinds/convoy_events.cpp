@@ -3,6 +3,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <span>
 
 #include "events/kinds/event_scene.h"
 
@@ -38,10 +39,9 @@ std::optional<double> headwayOf(const EventScene& scene, const GroundPath& follo
     if (now.speed > kSameSpeed * leader.speed || leader.speed > kSameSpeed * now.speed) return std::nullopt;
     double nearest = o.convoy_lane_m;
     std::optional<double> headway;
-    for (std::size_t i = at + 1; i < follower.samples.size(); ++i) {
-        const double seconds = secondsBetween(follower, at, i, scene.scale);
+    for (const GroundSample& then : std::span(follower.samples).subspan(at + 1)) {
+        const double seconds = (then.frame - now.frame) / scene.scale.frame_rate_hz;
         if (seconds > o.convoy_headway_s) break;
-        const GroundSample& then = follower.samples[i];
         const double distance = metresBetween(then, leader);
         if (distance >= nearest) continue;
         if (then.velocity.dot(leader.velocity) < kSameWayCos * then.speed * leader.speed) continue;

@@ -45,7 +45,7 @@ std::vector<char> ShadowOwners::castShadows(const std::vector<MotionVector>& vec
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         (looks_like_shadow[i] ? dark : lit).push_back(static_cast<int>(i));
     }
-    if (lit.size() < kOwnerVectors || dark.empty()) return cast;
+    if (dark.empty()) return cast;
 
     Linkage linkage = vehicleLinkage(scale_, background_speed_sigma, kOwnerVelocityShare);
     std::vector<VectorGroup> owners = groupVectors(vectors, lit, linkage);
