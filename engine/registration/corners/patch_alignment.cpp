@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "registration/vector_lanes.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "registration/corners/patch_alignment.cpp"
 #include <hwy/foreach_target.h>
@@ -29,10 +31,8 @@ HWY_ATTR HWY_INLINE float sumOf(Tag floats, hn::Vec<Tag> v) {
     return hn::GetLane(hn::SumOfLanes(floats, v));
 }
 
-/// Rows of 8 floats serve windows up to 7 px, rows of 16 the larger ones.
-template <int kRow>
 HWY_ATTR bool prepareRows(const std::int16_t* samples, PatchTemplate& patch) {
-    using Floats = hn::CappedTag<float, kRow>;
+    using Floats = hn::CappedTag<float, kVectorLanes>;
     const Floats floats;
     const hn::Rebind<std::int16_t, Floats> shorts;
     const hn::Rebind<std::int32_t, Floats> ints;
@@ -91,10 +91,9 @@ HWY_ATTR bool prepareRows(const std::int16_t* samples, PatchTemplate& patch) {
     return true;
 }
 
-template <int kRow>
 HWY_ATTR Alignment alignRows(const PatchTemplate& patch, const PaddedPicture& picture, cv::Point2f start,
                              const AlignmentLimits& limits) {
-    using Floats = hn::CappedTag<float, kRow>;
+    using Floats = hn::CappedTag<float, kVectorLanes>;
     const Floats floats;
     const int lanes = static_cast<int>(hn::Lanes(floats));
     const int window = patch.window_;
@@ -157,21 +156,6 @@ HWY_ATTR Alignment alignRows(const PatchTemplate& patch, const PaddedPicture& pi
     return result;
 }
 
-HWY_ATTR bool prepareSmall(const std::int16_t* samples, PatchTemplate& patch) {
-    return prepareRows<8>(samples, patch);
-}
-HWY_ATTR bool prepareLarge(const std::int16_t* samples, PatchTemplate& patch) {
-    return prepareRows<16>(samples, patch);
-}
-HWY_ATTR Alignment alignSmall(const PatchTemplate& patch, const PaddedPicture& picture, cv::Point2f start,
-                              const AlignmentLimits& limits) {
-    return alignRows<8>(patch, picture, start, limits);
-}
-HWY_ATTR Alignment alignLarge(const PatchTemplate& patch, const PaddedPicture& picture, cv::Point2f start,
-                              const AlignmentLimits& limits) {
-    return alignRows<16>(patch, picture, start, limits);
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace eyrie
 HWY_AFTER_NAMESPACE();
@@ -179,10 +163,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace eyrie {
 
-HWY_EXPORT(prepareSmall);
-HWY_EXPORT(prepareLarge);
-HWY_EXPORT(alignSmall);
-HWY_EXPORT(alignLarge);
+HWY_EXPORT(prepareRows);
+HWY_EXPORT(alignRows);
 
 bool patchFits(const PaddedPicture& picture, cv::Point2f centre, int window) {
     const auto reach = float(window / 2 + 1);
@@ -276,14 +258,12 @@ PatchTemplate::PatchTemplate(int window)
 }
 
 bool PatchTemplate::prepare(const std::int16_t* samples) {
-    return window_ < 8 ? HWY_DYNAMIC_DISPATCH(prepareSmall)(samples, *this)
-                       : HWY_DYNAMIC_DISPATCH(prepareLarge)(samples, *this);
+    return HWY_DYNAMIC_DISPATCH(prepareRows)(samples, *this);
 }
 
 Alignment align(const PatchTemplate& patch, const PaddedPicture& picture, cv::Point2f start,
                 const AlignmentLimits& limits) {
-    return patch.window_ < 8 ? HWY_DYNAMIC_DISPATCH(alignSmall)(patch, picture, start, limits)
-                             : HWY_DYNAMIC_DISPATCH(alignLarge)(patch, picture, start, limits);
+    return HWY_DYNAMIC_DISPATCH(alignRows)(patch, picture, start, limits);
 }
 
 }  // namespace eyrie

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "registration/vector_lanes.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "registration/estimation/normal_equations.cpp"
 #include <hwy/foreach_target.h>
@@ -13,7 +15,7 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Floats = hn::CappedTag<float, 16>;
+using Floats = hn::CappedTag<float, kVectorLanes>;
 using Vector = hn::Vec<Floats>;
 
 /// The homography's numbers, one in each lane of a vector.
