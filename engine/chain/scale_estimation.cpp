@@ -169,57 +169,56 @@ std::vector<Outcome> outcomesOf(FrameSource& source, FrameIndex first, FrameInde
 
 }  // namespace
 
-ScaleBasis basisOf(const SceneScale& scale, const std::optional<ScaleEstimate>& estimated) {
-    if (scale.gsd_known) return {ScaleOrigin::given};
-    if (!estimated) return {ScaleOrigin::assumed};
-    return {ScaleOrigin::estimated, estimated->uncertainty, estimated->vehicles};
-}
-
 namespace {
 
-/// The scale at the middle of the picture.
-SceneScale middleScale(FrameSource& source, FrameRange range, const ChainOptions& options, double gsd_m_per_px,
-                       const std::stop_token& stop, const ScaleProgress& told, std::optional<ScaleEstimate>* estimated,
-                       std::string* why_not) {
-    if (estimated != nullptr) estimated->reset();
-    if (why_not != nullptr) why_not->clear();
-    SceneScale scale = sceneScale(source.info(), gsd_m_per_px);
-    if (scale.gsd_known) return scale;
+ScaleBasis basisOf(const SceneScale& scale, const StatedScale& stated, const std::optional<ScaleEstimate>& estimate) {
+    if (scale.gsd_known) return {stated.origin};
+    if (!estimate) return {ScaleOrigin::assumed};
+    return {ScaleOrigin::estimated, estimate->uncertainty, estimate->vehicles};
+}
+
+/// What the traffic says of the scale at the middle of the picture.
+std::optional<ScaleEstimate> estimateMiddle(FrameSource& source, FrameRange range, const ChainOptions& options,
+                                            double frame_rate_hz, const std::stop_token& stop,
+                                            const ScaleProgress& told) {
     const FrameIndex end = source.info().frame_count - 1;
     const FrameIndex last = range.last < 0 ? end : std::min(range.last, end);
-    if (range.first < 0 || range.first > last) return scale;
-    if (!looksThroughWindows(options.detection.method)) {
-        const std::string missing = missingClassifier(options, scale);
-        if (why_not != nullptr) *why_not = missing;
-        if (!missing.empty()) return scale;
-    }
+    if (range.first < 0 || range.first > last) return std::nullopt;
     const FrameIndex farthest = std::max(range.first, last - kFramesOfLook + 1);
     FrameIndex looked_to = range.first - 1;
     std::vector<Outcome> together(kAssumptions);
+    std::optional<ScaleEstimate> found;
     for (const FrameIndex first : {range.first, range.first + (farthest - range.first) / 2, farthest}) {
         if (first <= looked_to || stop.stop_requested()) continue;
         looked_to = first + kFramesOfLook - 1;
-        const auto outcomes = outcomesOf(source, first, last, options, scale.frame_rate_hz, stop, told);
+        const auto outcomes = outcomesOf(source, first, last, options, frame_rate_hz, stop, told);
         // What looks like a vehicle by chance must not add up to traffic.
         if (outcomes.empty() || !estimateFrom(outcomes)) continue;
         for (std::size_t i = 0; i < outcomes.size(); ++i) together[i] = together[i] + outcomes[i];
         const auto estimate = estimateFrom(together);
         if (!estimate) continue;
-        scale.gsd_m_per_px = estimate->gsd_m_per_px;
-        if (estimated != nullptr) *estimated = estimate;
+        found = estimate;
         if (estimate->vehicles >= kPlenty) break;
     }
-    return scale;
+    return found;
 }
 
 }  // namespace
 
-SceneScale chooseScale(FrameSource& source, FrameRange range, const ChainOptions& options, double gsd_m_per_px,
-                       const std::stop_token& stop, const ScaleProgress& told, std::optional<ScaleEstimate>* estimated,
-                       std::string* why_not) {
-    SceneScale scale = middleScale(source, range, options, gsd_m_per_px, stop, told, estimated, why_not);
+ChosenScale chooseScale(FrameSource& source, FrameRange range, const ChainOptions& options, const StatedScale& stated,
+                        const std::stop_token& stop, const ScaleProgress& told) {
+    ChosenScale chosen;
+    SceneScale& scale = chosen.scale;
+    scale = sceneScale(source.info(), stated.gsd_m_per_px);
+    if (!scale.gsd_known) {
+        if (!looksThroughWindows(options.detection.method)) chosen.why_not = missingClassifier(options, scale);
+        if (chosen.why_not.empty())
+            chosen.estimate = estimateMiddle(source, range, options, scale.frame_rate_hz, stop, told);
+        if (chosen.estimate) scale.gsd_m_per_px = chosen.estimate->gsd_m_per_px;
+    }
     scale.slope = slopeFor(source, range, options, scale, stop, told);
-    return scale;
+    chosen.basis = basisOf(scale, stated, chosen.estimate);
+    return chosen;
 }
 
 ScaleSlope slopeFor(FrameSource& source, FrameRange range, const ChainOptions& options, const SceneScale& scale,

@@ -33,9 +33,9 @@ MetadataScale scaleByMetadata(const FrameSource& source, FrameIndex first, Frame
 
 /// A scale that is known before any picture is looked at.
 struct StatedScale {
-    double gsd_m_per_px = 0;  ///< 0: none
-    ScaleOrigin origin = ScaleOrigin::given;
-    MetadataScale by_metadata;  ///< what the metadata say; empty where they were not asked
+    double gsd_m_per_px = 0;                  ///< 0: none but what the source itself knows
+    ScaleOrigin origin = ScaleOrigin::given;  ///< where there is one, of this or of the source
+    MetadataScale by_metadata = {};           ///< what the metadata say; empty where they were not asked
 };
 
 /// The scale that a run over frames first … last (last < 0: to the end) is to work with: what a person gave (m/px, > 0)

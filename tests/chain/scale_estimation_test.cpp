@@ -31,9 +31,7 @@ std::optional<ScaleEstimate> lookAt(FrameSource& source, const std::stop_token& 
     WithoutScale unknown(source);
     ChainOptions options;
     options.view.oblique = false;
-    std::optional<ScaleEstimate> estimate;
-    chooseScale(unknown, {0, 39}, options, 0, stop, {}, &estimate);
-    return estimate;
+    return chooseScale(unknown, {0, 39}, options, {}, stop).estimate;
 }
 
 std::unique_ptr<FrameSource> sharedSource(const char* folder, double frame_rate_hz) {
@@ -47,16 +45,14 @@ std::unique_ptr<FrameSource> sharedSource(const char* folder, double frame_rate_
 TEST(ScaleEstimation, findsTheScaleOfRealTraffic) {
     EYRIE_NEED_SHARED_DATA("collage_day");
     const auto source = openSource(test::sharedData("collage_day/frames"));
-    std::optional<ScaleEstimate> estimate;
-    const SceneScale scale = chooseScale(*source, {}, ChainOptions{}, 0, {}, {}, &estimate);
+    const auto [scale, basis, estimate, why_not] = chooseScale(*source, {}, ChainOptions{}, {}, {});
     EXPECT_FALSE(scale.gsd_known) << "a guess is no knowledge";
     EXPECT_NEAR(scale.gsd_m_per_px, 0.2, kAllowed * 0.2);
     ASSERT_TRUE(estimate);
     EXPECT_EQ(estimate->gsd_m_per_px, scale.gsd_m_per_px);
     EXPECT_GT(estimate->uncertainty, 1.1);
     EXPECT_LT(estimate->uncertainty, 1.3) << "many cars drive there";
-    const ScaleBasis basis{ScaleOrigin::estimated, estimate->uncertainty, estimate->vehicles};
-    EXPECT_EQ(basisOf(scale, estimate), basis);
+    EXPECT_EQ(basis, (ScaleBasis{ScaleOrigin::estimated, estimate->uncertainty, estimate->vehicles}));
 }
 
 TEST(ScaleEstimation, findsTheScaleOfARenderedSceneAndIsWideWhereFewVehiclesDrive) {
@@ -82,13 +78,15 @@ TEST(ScaleEstimation, aHouseThatIsFlownRoundIsNoTraffic) {
     EXPECT_FALSE(lookAt(*sharedSource("uav123_building4", 10)));
 }
 
-TEST(ScaleEstimation, aGivenScaleIsTakenAsItIs) {
+TEST(ScaleEstimation, aStatedScaleIsTakenAsItIsAndItIsKeptWhoStatedIt) {
     test::MemorySource source((test::MovingScene()));
-    std::optional<ScaleEstimate> estimate;
-    const SceneScale scale = chooseScale(source, {}, ChainOptions{}, 0.31, {}, {}, &estimate);
-    EXPECT_EQ(basisOf(scale, estimate), ScaleBasis{ScaleOrigin::given});
-    EXPECT_TRUE(scale.gsd_known);
-    EXPECT_DOUBLE_EQ(scale.gsd_m_per_px, 0.31);
+    for (const ScaleOrigin origin : {ScaleOrigin::given, ScaleOrigin::metadata}) {
+        const ChosenScale chosen = chooseScale(source, {}, ChainOptions{}, {0.31, origin, {}}, {});
+        EXPECT_EQ(chosen.basis, ScaleBasis{origin});
+        EXPECT_TRUE(chosen.scale.gsd_known);
+        EXPECT_DOUBLE_EQ(chosen.scale.gsd_m_per_px, 0.31);
+        EXPECT_FALSE(chosen.estimate) << "nothing to look for";
+    }
 }
 
 TEST(ScaleEstimation, withoutTrafficItFallsBackAndDoesNotFail) {
@@ -96,16 +94,15 @@ TEST(ScaleEstimation, withoutTrafficItFallsBackAndDoesNotFail) {
     scene.vehicles.clear();
     scene.frames = 20;
     test::MemorySource source(scene);
-    std::optional<ScaleEstimate> estimate;
-    const SceneScale scale = chooseScale(source, {}, ChainOptions{}, 0, {}, {}, &estimate);
-    EXPECT_DOUBLE_EQ(scale.gsd_m_per_px, SceneScale{}.gsd_m_per_px);
-    EXPECT_EQ(basisOf(scale, estimate), ScaleBasis{ScaleOrigin::assumed});
+    const ChosenScale chosen = chooseScale(source, {}, ChainOptions{}, {}, {});
+    EXPECT_DOUBLE_EQ(chosen.scale.gsd_m_per_px, SceneScale{}.gsd_m_per_px);
+    EXPECT_EQ(chosen.basis, ScaleBasis{ScaleOrigin::assumed});
 }
 
 TEST(ScaleEstimation, aStandingQueueAndOneRiderDoNotSettleTheScaleOfAllThatDrivesLater) {
     EYRIE_NEED_SHARED_DATA("uavdt_s1606");
     const auto source = sharedSource("uavdt_s1606/frames", 30);
-    const SceneScale scale = chooseScale(*source, {}, ChainOptions{}, 0, {});
+    const SceneScale scale = chooseScale(*source, {}, ChainOptions{}, {}, {}).scale;
     EXPECT_NEAR(scale.gsd_m_per_px, 0.09, kAllowed * 0.09) << "the first 40 frames alone say 0.15";
 }
 
@@ -114,14 +111,12 @@ TEST(ScaleEstimation, withoutAClassifierARunThatNeedsNoneFallsBackAndSaysWhy) {
     ChainOptions options;
     options.detection.sliding_window.model = "nowhere.eyriemodel";
     options.detection.method = DetectionMethod::gradient;
-    std::string why_not;
-    const SceneScale scale = chooseScale(source, {}, options, 0, {}, {}, nullptr, &why_not);
-    EXPECT_EQ(basisOf(scale), ScaleBasis{ScaleOrigin::assumed});
-    EXPECT_NE(why_not.find("nowhere.eyriemodel"), std::string::npos) << why_not;
-    chooseScale(source, {}, options, 0.3, {}, {}, nullptr, &why_not);
-    EXPECT_TRUE(why_not.empty()) << "nothing to look for";
+    const ChosenScale chosen = chooseScale(source, {}, options, {}, {});
+    EXPECT_EQ(chosen.basis, ScaleBasis{ScaleOrigin::assumed});
+    EXPECT_NE(chosen.why_not.find("nowhere.eyriemodel"), std::string::npos) << chosen.why_not;
+    EXPECT_TRUE(chooseScale(source, {}, options, {0.3}, {}).why_not.empty()) << "nothing to look for";
     options.detection.method = DetectionMethod::window_and_gradient;
-    EXPECT_THROW(chooseScale(source, {}, options, 0, {}), Error);
+    EXPECT_THROW(chooseScale(source, {}, options, {}, {}), Error);
 }
 
 TEST(ScaleEstimation, tellsHowFarItIs) {
@@ -129,7 +124,7 @@ TEST(ScaleEstimation, tellsHowFarItIs) {
     scene.frames = 6;
     test::MemorySource source(scene);
     std::vector<RunProgress> told;
-    chooseScale(source, {}, ChainOptions{}, 0, {}, [&](const RunProgress& progress) { told.push_back(progress); });
+    chooseScale(source, {}, ChainOptions{}, {}, {}, [&](const RunProgress& progress) { told.push_back(progress); });
     ASSERT_FALSE(told.empty());
     for (std::size_t i = 0; i < told.size(); ++i) {
         EXPECT_TRUE(told[i].estimating_scale);
@@ -139,7 +134,7 @@ TEST(ScaleEstimation, tellsHowFarItIs) {
     told.clear();
     ChainOptions straight_down;
     straight_down.view.oblique = false;
-    chooseScale(source, {}, straight_down, 0.3, {}, [&](const RunProgress& progress) { told.push_back(progress); });
+    chooseScale(source, {}, straight_down, {0.3}, {}, [&](const RunProgress& progress) { told.push_back(progress); });
     EXPECT_TRUE(told.empty()) << "nothing to look for";
 }
 

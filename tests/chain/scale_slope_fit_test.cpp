@@ -108,10 +108,10 @@ TEST(SlopeEstimation, IsOnlyLookedForWhereAskedAndWhereTheScaleMeansSomething) {
     const auto source = openSource(test::sharedData("uavdt_m1303/img1"));
     ChainOptions options;
     setParameter(describeOf(options), "view.oblique", "false");
-    EXPECT_TRUE(chooseScale(*source, {}, options, 0.08, {}).slope.isFlat());
+    EXPECT_TRUE(chooseScale(*source, {}, options, {0.08}, {}).scale.slope.isFlat());
     EXPECT_FALSE(builtInPreset("thesis").view.oblique) << "the thesis looks straight down";
     options.view.oblique = true;
-    EXPECT_FALSE(chooseScale(*source, {}, options, 0.08, {}).slope.isFlat());
+    EXPECT_FALSE(chooseScale(*source, {}, options, {0.08}, {}).scale.slope.isFlat());
     std::stop_source stopped;
     stopped.request_stop();
     EXPECT_TRUE(estimateSlope(*source, {}, options, SceneScale{0.08, 30, true}, stopped.get_token()).isFlat());

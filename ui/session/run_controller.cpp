@@ -91,22 +91,19 @@ void RunController::work(const RunRequest& request, LiveFeed& feed, const Backgr
                           .run(*source, resumed.range(), recorder, stop, true, resumed.start);
             recorder.finish(summary);
         } else {
-            std::optional<ScaleEstimate> estimated;
             const StatedScale stated = statedScale(*source, request.range.first, request.range.last,
                                                    request.gsd_m_per_px, request.gsd_origin, stop);
-            const SceneScale scale = chooseScale(
-                *source, request.range, request.options, stated.gsd_m_per_px, stop,
-                [&feed](const RunProgress& progress) { feed.onProgress(progress); }, &estimated);
-            RunRecord record = plannedRun(source->info(), scale, request.range, request.preset);
-            record.scale_basis = basisOf(scale, estimated);
-            if (stated.gsd_m_per_px > 0) record.scale_basis.origin = stated.origin;
+            const ChosenScale chosen = chooseScale(*source, request.range, request.options, stated, stop,
+                                                   [&feed](const RunProgress& progress) { feed.onProgress(progress); });
+            RunRecord record = plannedRun(source->info(), chosen.scale, request.range, request.preset);
+            record.scale_basis = chosen.basis;
             record.name = request.name;
             record.sequence.path = request.media.identity;
             RunRecorder recorder(request.project, record, request.options, &feed);
             run_id = recorder.runId();
             record.id = run_id;
             task.tell([this, record] { emit started(record); });
-            summary = ChainRun(request.options, scale).run(*source, request.range, recorder, stop, true);
+            summary = ChainRun(request.options, chosen.scale).run(*source, request.range, recorder, stop, true);
             recorder.finish(summary);
         }
     } catch (const std::exception& error) {

@@ -33,7 +33,7 @@ EarlierStateDialog::EarlierStateDialog(const std::filesystem::path& project, Ear
     setWindowTitle(tr("Restore an earlier state of %1").arg(QString::fromStdString(project.filename().string())));
     resize(720, 360);
     list_ = new QListWidget(this);
-    differences_ = new QLabel(tr("Reading the kept states …"), this);
+    differences_ = new QLabel(tr("Reading the kept states…"), this);
     differences_->setWordWrap(true);
     differences_->setTextFormat(Qt::PlainText);
     differences_->setAlignment(Qt::AlignLeft | Qt::AlignTop);

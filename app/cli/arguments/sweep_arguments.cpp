@@ -55,7 +55,8 @@ OpenedClips openSequences(const SweepSources& sources, const ChainOptions& optio
         GroundTruth truth = readGroundTruth(truth_source, source->info().size);
         clip.ground_truth = truth_source.file.string();
         const double gsd = sources.gsds.empty() ? 0 : sources.gsds[sources.gsds.size() == 1 ? 0 : i];
-        clip.scale = chooseScale(*source, range, options, gsd, stop);
+        const StatedScale stated = statedScale(*source, range.first, range.last, gsd, ScaleOrigin::given, stop);
+        clip.scale = chooseScale(*source, range, options, stated, stop).scale;
         SweepInput input = openClip(clip, opener(clip.sequence, rate, remembered), range, std::move(truth),
                                     sources.evaluation.options, {.looked_for_slope = options.view.oblique});
         opened.add(std::move(clip), std::move(input));

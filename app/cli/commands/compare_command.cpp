@@ -187,13 +187,11 @@ int compare(const CompareArguments& arguments) {
     GroundTruth truth = readGroundTruth(arguments.ground_truth.source(), video.size);
     FrameRange range = arguments.video.range();
     if (range.last < 0) range.last = video.frame_count - 1;
-    std::optional<ScaleEstimate> estimated;
-    std::string no_estimate;
-    const SceneScale scale =
-        chooseScale(*source, range, planned.front().variant.options, arguments.video.gsd_m_per_px.value_or(0),
-                    interrupt.token(), {}, &estimated, &no_estimate);
-    if (!no_estimate.empty())
-        report.remarks.push_back("The scale is not estimated, which needs a classifier: " + no_estimate);
+    const StatedScale stated = statedScale(*source, range.first, range.last, arguments.video.gsd_m_per_px.value_or(0),
+                                           ScaleOrigin::given, interrupt.token());
+    const auto [scale, basis, estimate, why_not] =
+        chooseScale(*source, range, planned.front().variant.options, stated, interrupt.token());
+    if (!why_not.empty()) report.remarks.push_back("The scale is not estimated, which needs a classifier: " + why_not);
 
     std::vector<MethodVariant> methods;
     for (const Planned& method : planned) methods.push_back(method.variant);
@@ -201,7 +199,7 @@ int compare(const CompareArguments& arguments) {
     if (!arguments.project.empty()) {
         if (!keepEarlierState(arguments.project, interrupt.token())) return exit_stopped;
         RunRecord like = plannedRun(video, scale, range, arguments.preset.preset);
-        like.scale_basis = basisOf(scale, estimated);
+        like.scale_basis = basis;
         recorders.emplace(arguments.project, planned, like);
     }
     ConsoleProgress console("frames");

@@ -105,34 +105,27 @@ void tellScaleOf(const MetadataScale& scale) {
         std::fprintf(stderr, "the video's metadata (KLV) are not used for the scale: %s\n", scale.why_not.c_str());
 }
 
-/// The scale to work with, and where it comes from.
-std::pair<SceneScale, ScaleBasis> scaleOf(FrameSource& source, FrameRange range, const ChainOptions& options,
-                                          const RunArguments& arguments, const std::stop_token& stop) {
+/// The scale to work with; what is said of it before the run is said here.
+ChosenScale scaleOf(FrameSource& source, FrameRange range, const ChainOptions& options, const RunArguments& arguments,
+                    const std::stop_token& stop) {
     const StatedScale stated = statedScale(source, range.first, range.last, arguments.video.gsd_m_per_px.value_or(0),
                                            ScaleOrigin::given, stop);
-    if (!arguments.quiet) tellScaleOf(stated.by_metadata);
-    if (stated.gsd_m_per_px <= 0 && source.info().gsd_m_per_px <= 0 && !arguments.quiet)
+    if (arguments.quiet) return chooseScale(source, range, options, stated, stop);
+    tellScaleOf(stated.by_metadata);
+    if (stated.gsd_m_per_px <= 0 && source.info().gsd_m_per_px <= 0)
         std::fputs("GSD unknown: estimating the scale from the traffic\n", stderr);
-    std::optional<ScaleEstimate> estimated;
-    std::string why_not;
-    SceneScale scale;
+    ChosenScale chosen;
     {
         ConsoleProgress console("looks");  // ends its line
-        scale = chooseScale(
-            source, range, options, stated.gsd_m_per_px, stop,
-            [&](const RunProgress& progress) {
-                if (!arguments.quiet)
-                    console.show(progress.frames_done, progress.frames_total, progress.frames_per_second,
-                                 progress.seconds_left);
-            },
-            &estimated, &why_not);
+        chosen = chooseScale(source, range, options, stated, stop, [&](const RunProgress& progress) {
+            console.show(progress.frames_done, progress.frames_total, progress.frames_per_second,
+                         progress.seconds_left);
+        });
     }
-    if (!why_not.empty() && !arguments.quiet)
-        std::fprintf(stderr, "The scale is not estimated, which needs a classifier: %s\n", why_not.c_str());
-    if (estimated && !arguments.quiet) std::fprintf(stderr, "%s\n", estimateText(*estimated).c_str());
-    ScaleBasis basis = basisOf(scale, estimated);
-    if (scale.gsd_known) basis.origin = stated.origin;
-    return {scale, basis};
+    if (!chosen.why_not.empty())
+        std::fprintf(stderr, "The scale is not estimated, which needs a classifier: %s\n", chosen.why_not.c_str());
+    if (chosen.estimate) std::fprintf(stderr, "%s\n", estimateText(*chosen.estimate).c_str());
+    return chosen;
 }
 
 /// Said before the work and not after it.
@@ -169,9 +162,9 @@ EndedRun runAnew(const RunArguments& arguments, FrameSource& source, const std::
     const ChainOptions options = arguments.preset.options();
     const VideoInfo& video = source.info();
     checkRange(range, video);
-    const auto [scale, basis] = scaleOf(source, range, options, arguments, interrupt.token());
-    RunRecord planned = plannedRun(video, scale, range, arguments.preset.preset);
-    planned.scale_basis = basis;
+    const ChosenScale chosen = scaleOf(source, range, options, arguments, interrupt.token());
+    RunRecord planned = plannedRun(video, chosen.scale, range, arguments.preset.preset);
+    planned.scale_basis = chosen.basis;
     planned.name = arguments.name;
     const RecordingOptions recording =
         arguments.detections_csv.empty()
@@ -181,7 +174,7 @@ EndedRun runAnew(const RunArguments& arguments, FrameSource& source, const std::
     RunRecorder recorder(project, planned, options, &console, recording);
     EndedRun ended;
     ended.summary =
-        ChainRun(options, scale).run(source, range, recorder, interrupt.token(), !arguments.annotated.empty());
+        ChainRun(options, chosen.scale).run(source, range, recorder, interrupt.token(), !arguments.annotated.empty());
     takeRecord(ended, recorder);
     ended.has_video = console.finishVideo(ended.summary.outcome == RunOutcome::failed);
     return ended;

@@ -175,7 +175,6 @@ struct LiveRun::Parts {
           made(request.project),
           stop(std::move(wanted_stop)),
           stream(request.address, request.stream, stop),
-          scale(sceneScale(stream.info(), request.gsd_m_per_px)),
           source(stream, request.options) {}
 
     /// What the metadata say that were recorded so far, where nobody gave a scale.
@@ -191,18 +190,14 @@ struct LiveRun::Parts {
 
     /// Looks at the first pictures for what is not known of the scale. Frames that come meanwhile are left out of the
     /// run once no more can wait.
-    ScaleBasis chooseScaleOf(ChainObserver* also) {
+    ChosenScale chooseScaleOf(ChainObserver* also) {
         const auto told = [&](const RunProgress& progress) {
             if (also != nullptr) also->onProgress(progress);
         };
-        std::optional<ScaleEstimate> estimated;
         const auto first = source.first(kFramesOfLook);
-        const StatedScale stated = statedSoFar();
-        scale = chooseScale(*first, {}, request.options, stated.gsd_m_per_px, stop, told, &estimated);
+        ChosenScale chosen = chooseScale(*first, {}, request.options, statedSoFar(), stop, told);
         left_out_for_scale = stream.facts().skipped;
-        ScaleBasis basis = basisOf(scale, estimated);
-        if (stated.gsd_m_per_px > 0) basis.origin = stated.origin;
-        return basis;
+        return chosen;
     }
 
     static LiveRequest withRecording(LiveRequest request) {
@@ -221,7 +216,6 @@ struct LiveRun::Parts {
     ProjectOfRun made;
     std::stop_token stop;
     LiveStream stream;
-    SceneScale scale;
     LighterReading source;
     std::atomic<int> left_out_for_scale{0};
 };
@@ -233,10 +227,6 @@ LiveRun::~LiveRun() = default;
 
 const VideoInfo& LiveRun::video() const {
     return parts_->stream.info();
-}
-
-const SceneScale& LiveRun::scale() const {
-    return parts_->scale;
 }
 
 const std::filesystem::path& LiveRun::recording() const {
@@ -254,19 +244,19 @@ LiveStatus LiveRun::status() const {
 LiveRunResult LiveRun::run(ChainObserver* also, const Begun& begun) {
     const LiveRequest& request = parts_->request;
     LiveRunResult result;
-    const ScaleBasis basis = parts_->chooseScaleOf(also);
-    RunRecord planned = plannedRun(video(), scale(), {}, request.preset);
+    const auto [scale, basis, estimate, why_not] = parts_->chooseScaleOf(also);
+    RunRecord planned = plannedRun(video(), scale, {}, request.preset);
     planned.scale_basis = basis;
     planned.name = request.name.empty() ? shownAddress(request.address) : request.name;
     RunRecorder recorder(request.project, planned, request.options, also, request.details);
     LiveRecorder live(recorder, request.project);
     planned.id = recorder.runId();
     if (begun) begun(planned);
-    const RunStart start{std::make_shared<ChainProgress>(request.options, scale()), 0};
-    parts_->source.begin(scale(), start.progress);
+    const RunStart start{std::make_shared<ChainProgress>(request.options, scale), 0};
+    parts_->source.begin(scale, start.progress);
     RunSummary& summary = result.summary;
     // Whoever wants it to end ends the stream: what came before is still worked on.
-    summary = ChainRun(request.options, scale()).run(parts_->source, {}, live, {}, request.stream.with_colour, start);
+    summary = ChainRun(request.options, scale).run(parts_->source, {}, live, {}, request.stream.with_colour, start);
     parts_->stream.finish();
     if (summary.outcome == RunOutcome::stopped) summary.outcome = RunOutcome::finished;
     summary.frames_total = summary.frames_done;

@@ -65,8 +65,7 @@ class LiveRun {
     LiveRun(const LiveRun&) = delete;
     LiveRun& operator=(const LiveRun&) = delete;
 
-    const VideoInfo& video() const;   ///< its length is not known
-    const SceneScale& scale() const;  ///< that of the run once it has begun
+    const VideoInfo& video() const;  ///< its length is not known
     const std::filesystem::path& recording() const;
     /// From any thread.
     LiveStatus status() const;

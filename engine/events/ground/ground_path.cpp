@@ -117,8 +117,12 @@ std::vector<SampleSpan> spansOf(const GroundPath& path, bool moving) {
     return spans;
 }
 
+double secondsBetween(const GroundSample& a, const GroundSample& b, const SceneScale& scale) {
+    return (b.frame - a.frame) / scale.frame_rate_hz;
+}
+
 double secondsBetween(const GroundPath& path, std::size_t from, std::size_t to, const SceneScale& scale) {
-    return (path.samples[to].frame - path.samples[from].frame) / scale.frame_rate_hz;
+    return secondsBetween(path.samples[from], path.samples[to], scale);
 }
 
 double metresBetween(const GroundSample& a, const GroundSample& b) {

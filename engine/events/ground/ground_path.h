@@ -42,7 +42,8 @@ struct SampleSpan {
 /// Maximal spans of samples that move, or stand, in their order.
 std::vector<SampleSpan> spansOf(const GroundPath& path, bool moving);
 
-/// The samples' frames in seconds.
+/// From one sample's frame to another's, s; negative where the second comes first.
+double secondsBetween(const GroundSample& a, const GroundSample& b, const SceneScale& scale);
 double secondsBetween(const GroundPath& path, std::size_t from, std::size_t to, const SceneScale& scale);
 /// Between two places of one ground, m by the scale there.
 double metresBetween(const GroundSample& a, const GroundSample& b);

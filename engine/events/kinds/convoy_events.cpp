@@ -40,7 +40,7 @@ std::optional<double> headwayOf(const EventScene& scene, const GroundPath& follo
     double nearest = o.convoy_lane_m;
     std::optional<double> headway;
     for (const GroundSample& then : std::span(follower.samples).subspan(at + 1)) {
-        const double seconds = (then.frame - now.frame) / scene.scale.frame_rate_hz;
+        const double seconds = secondsBetween(now, then, scene.scale);
         if (seconds > o.convoy_headway_s) break;
         const double distance = metresBetween(then, leader);
         if (distance >= nearest) continue;

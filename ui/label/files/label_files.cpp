@@ -123,7 +123,7 @@ void LabelImportDialog::read() {
     if (path_.empty()) return;
     report_.reset();
     setBusy(true);
-    text_->setPlainText(tr("Reading …"));
+    text_->setPlainText(tr("Reading…"));
     const auto work = [this, path = path_, format = format_->currentData().toString().toStdString(),
                        options = options(), present = labels_.annotations(), camera = labels_.sharedCamera(),
                        within = 1 + tolerance_->value(),
@@ -222,7 +222,7 @@ void LabelImportDialog::accept() {
     }
     setBusy(true);
     setEnabled(false);
-    text_->setPlainText(tr("Choosing keyframes …"));
+    text_->setPlainText(tr("Choosing keyframes…"));
     // Nobody else changes labels while this dialog is up, so the store may hand out ids on the other thread.
     const auto work = [this, path = path_, format = report_->format, with_classes, store = labels_.store(),
                        sequence = labels_.sequence(), camera = labels_.sharedCamera(), tolerance = tolerance_->value(),

@@ -123,7 +123,7 @@ void LabelExportDialog::startExport() {
     const QString target = target_->text().trimmed();
     const bool agreed = std::exchange(agreed_, {}) == target;
     export_->setEnabled(false);
-    text_->setPlainText(tr("Writing …"));
+    text_->setPlainText(tr("Writing…"));
     const auto work = [this, set = labels_.annotations(), sequence = labels_.sequence(),
                        camera = labels_.sharedCamera(), path = std::filesystem::path(target.toStdString()),
                        project = labels_.projectPath(), target, agreed,

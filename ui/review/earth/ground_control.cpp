@@ -262,7 +262,7 @@ void GroundControl::showState() {
     }
     const VideoWorld* world = parts_.earth.world();
     if (world == nullptr || parts_.earth.control() != points_) {
-        panel_->setState(tr("Working out the places …"), false);
+        panel_->setState(tr("Working out the places…"), false);
         return;
     }
     QStringList lines;

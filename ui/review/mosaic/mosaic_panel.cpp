@@ -103,7 +103,7 @@ void MosaicPanel::makeIfWanted() {
     }
     if (!looked_at_ || !ground || made_of_ == ground || !parts_.session.media()) return;
     made_of_ = ground;
-    empty_->setTexts(tr("The ground is being laid out …"));
+    empty_->setTexts(tr("The ground is being laid out…"));
     maker_.make(ground, *parts_.session.media());
 }
 

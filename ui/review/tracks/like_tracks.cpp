@@ -72,7 +72,7 @@ void LikeTracks::sayWaiting(bool waits) {
     const RunRecord* run = parts_.session.shownRun();
     const bool at_work = parts_.session.running() || (run != nullptr && run->live);
     QString why;
-    if (waits) why = at_work && !ground_ ? tr("when the run ends") : tr("being looked for …");
+    if (waits) why = at_work && !ground_ ? tr("when the run ends") : tr("being looked for…");
     parts_.panel.chips().setLikeWaiting(why);
 }
 

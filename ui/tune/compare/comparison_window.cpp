@@ -263,8 +263,8 @@ void ComparisonWindow::showComparison() {
     }
     if (!comparison_) {
         header_->setSummary(!pair_              ? tr("There is no run of this video yet. Make one to compare with.")
-                            : pair_->computes() ? tr("Computing …")
-                                                : tr("Comparing …"));
+                            : pair_->computes() ? tr("Computing…")
+                                                : tr("Comparing…"));
         return;
     }
     const auto& found = detections_->isChecked() ? comparison_->detections : comparison_->tracks;

@@ -1,10 +1,10 @@
 #include "tune/compare/preview_bar.h"
 
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QPushButton>
 #include <QSpinBox>
 
+#include "widgets/elided_label.h"
 #include "widgets/wiring.h"
 
 namespace eyrie::ui {
@@ -18,8 +18,7 @@ constexpr std::size_t kMostNamed = 2;  ///< … and in the bar itself
 PreviewBar::PreviewBar(LivePreview& preview, PreviewCommands commands, QWidget* parent)
     : QFrame(parent), preview_(preview), commands_(std::move(commands)) {
     setObjectName(QStringLiteral("preview_bar"));
-    text_ = new QLabel(this);
-    text_->setTextFormat(Qt::PlainText);
+    text_ = new ElidedLabel(Qt::ElideRight, this);
     text_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     range_ = new QSpinBox(this);
     range_->setRange(0, kMostRange);
@@ -45,7 +44,7 @@ PreviewBar::PreviewBar(LivePreview& preview, PreviewCommands commands, QWidget* 
 }
 
 QString PreviewBar::text() const {
-    return whole_text_;
+    return text_->text();
 }
 
 void PreviewBar::refresh() {
@@ -75,22 +74,10 @@ void PreviewBar::refresh() {
         if (view->previewed.approximate) text += tr(" · motion vectors recomputed, a run may differ slightly");
         if (view->previewed.start == ChainStage::finishing) text += tr(" · shows in finished runs only");
     } else {
-        text += tr(" · computing …");
+        text += tr(" · computing…");
     }
-    whole_text_ = text;
-    showText();
-    listed.prepend(text);
+    text_->setText(text);
     text_->setToolTip(listed.join(QLatin1Char('\n')));
-}
-
-void PreviewBar::showText() {
-    text_->setText(text_->fontMetrics().elidedText(whole_text_, Qt::ElideRight, text_->width()));
-}
-
-void PreviewBar::resizeEvent(QResizeEvent* event) {
-    QFrame::resizeEvent(event);
-    layout()->activate();  // the label has its new width
-    showText();
 }
 
 }  // namespace eyrie::ui

@@ -5,11 +5,12 @@
 
 #include "tune/compare/live_preview.h"
 
-class QLabel;
 class QPushButton;
 class QSpinBox;
 
 namespace eyrie::ui {
+
+class ElidedLabel;
 
 /// What can be done with a preview.
 struct PreviewCommands {
@@ -28,17 +29,12 @@ class PreviewBar : public QFrame {
 
     QString text() const;
 
- protected:
-    void resizeEvent(QResizeEvent* event) override;
-
  private:
-    void showText();
     void refresh();
 
     LivePreview& preview_;
     PreviewCommands commands_;
-    QString whole_text_;
-    QLabel* text_;
+    ElidedLabel* text_;
     QSpinBox* range_;
     QPushButton* run_;
     QPushButton* discard_;

@@ -134,7 +134,7 @@ void EvaluationChoices::showSettings() {
 void EvaluationChoices::showRuns() {
     const QSignalBlocker blocker(other_);
     other_->clear();
-    other_->addItem(tr("Compare with …"), 0);
+    other_->addItem(tr("Compare with…"), 0);
     const auto current = session_.currentRun();
     std::string video;
     for (const RunRecord& run : session_.runs())

@@ -133,7 +133,7 @@ void MotionStatisticsPanel::readLives() {
     // While a run works its lists are read every other second; its lives are read once it has ended.
     if (!looked_at_ || !session_.runData() || session_.running() || read_of_ == session_.runData()) return;
     read_of_ = session_.runData();
-    life_title_->setText(tr("<b>Life</b>: reading the motion vectors of the run …"));
+    life_title_->setText(tr("<b>Life</b>: reading the motion vectors of the run…"));
     reader_.read({session_.project(), read_of_->record.id});
 }
 
@@ -149,7 +149,7 @@ void MotionStatisticsPanel::showFrame() {
 void MotionStatisticsPanel::showSpeeds() {
     const ViewFrame& frame = session_.viewFrame();
     if (wholeRun() ? !counted_ : !frame.result) {
-        speed_title_->setText(wholeRun() ? tr("<b>Speed</b>: reading the motion vectors of the run …")
+        speed_title_->setText(wholeRun() ? tr("<b>Speed</b>: reading the motion vectors of the run…")
                                          : tr("The run has not processed this frame."));
         speeds_->setData({});
         return;

@@ -40,7 +40,7 @@ StacksPanel::StacksPanel(ProjectSession& session, Inspection& inspection, QWidge
                  {InspectionChange::progress, [this] { showProgress(); }},
                  {InspectionChange::view, [this] { showView(inspection_.view()); }}});
     bindSwitches(this, {{whole_area_, [this] {
-                             summary_->setText(tr("The stacks are being cut again …"));
+                             summary_->setText(tr("The stacks are being cut again…"));
                              want();
                          }}});
     bindCommands(this, {{empty_->button(), [this] { commands_.run_with_stacking(); }}});
@@ -95,7 +95,7 @@ void StacksPanel::refresh() {
         why = tr("The run has not processed this frame.");
     }
     if (why.isEmpty()) {  // pictures that are shown stay until others come
-        if (pages_->currentWidget() == empty_) empty_->setTexts(tr("This frame is being replayed …"));
+        if (pages_->currentWidget() == empty_) empty_->setTexts(tr("This frame is being replayed…"));
         return;
     }
     empty_->setTexts(why, action);
@@ -105,7 +105,7 @@ void StacksPanel::refresh() {
 }
 
 void StacksPanel::showProgress() {
-    if (looked_at_) summary_->setText(tr("%1 frames before this one are replayed …").arg(inspection_.framesLeft()));
+    if (looked_at_) summary_->setText(tr("%1 frames before this one are replayed…").arg(inspection_.framesLeft()));
 }
 
 void StacksPanel::showView(const std::shared_ptr<const ReplayView>& view) {

@@ -155,7 +155,7 @@ void StagesPanel::refresh() {
         title_->setText(any ? tr("%1 clusters").arg(result->clusters.size()) : tr("No cluster"));
     const auto [why, action] = whyEmpty();
     if (why.isEmpty() && pages_->currentWidget() == empty_)  // pictures that are shown stay until others come
-        empty_->setTexts(tr("This frame is being replayed …"));
+        empty_->setTexts(tr("This frame is being replayed…"));
     const bool whole_frame = view_ && view_->differences && !cluster && view_->wish.frame == session_.viewFrame().index;
     general_->setVisible(result != nullptr);
     if (!why.isEmpty() && !whole_frame) {
@@ -167,7 +167,7 @@ void StagesPanel::refresh() {
 }
 
 void StagesPanel::showProgress() {
-    if (looked_at_) summary_->setText(tr("%1 frames before this one are replayed …").arg(inspection_.framesLeft()));
+    if (looked_at_) summary_->setText(tr("%1 frames before this one are replayed…").arg(inspection_.framesLeft()));
 }
 
 void StagesPanel::showView(const std::shared_ptr<const ReplayView>& view) {

@@ -98,7 +98,7 @@ void WhyPanel::refresh() {
                "context menu. Every comparison that was made there is listed, and the one that decided."));
     if (!why_.problem().isEmpty()) return empty(why_.problem());
     if (!view)
-        return empty(why_.waiting() ? tr("Looking at the frames before this one …")
+        return empty(why_.waiting() ? tr("Looking at the frames before this one…")
                                     : tr("The run has not processed this frame."));
     const bool current = view->frame == session_.viewFrame().index && !why_.waiting();
     QString title = why_.about();
@@ -108,7 +108,7 @@ void WhyPanel::refresh() {
                                 .arg(qRound(view->area.centre.x))
                                 .arg(qRound(view->area.centre.y))
                                 .arg(current          ? QString()
-                                     : why_.waiting() ? tr(" · looking at the frame shown …")
+                                     : why_.waiting() ? tr(" · looking at the frame shown…")
                                                       : tr(" · not the frame shown")));
     pages_->setCurrentWidget(steps_);
     if (shown_ == view) return;

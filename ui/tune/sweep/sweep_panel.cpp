@@ -142,7 +142,7 @@ QWidget* SweepPanel::buildResult() {
     auto* commands = new QWidget(result);
     auto* last = new FlowLayout(commands);
     apply_ = new QPushButton(tr("Use for the next run"), result);
-    save_ = new QPushButton(tr("Save as preset …"), result);
+    save_ = new QPushButton(tr("Save as preset…"), result);
     last->addWidget(apply_);
     last->addWidget(save_);
     auto* copy = new QToolButton(result);

@@ -83,8 +83,8 @@ void StatusFields::showPreparing() {
         showProgress();
         return;
     }
-    work_->setText(session_.settings().gsd_m_per_px > 0 ? tr("starting the run …")
-                                                        : tr("estimating the scale from the traffic …"));
+    work_->setText(session_.settings().gsd_m_per_px > 0 ? tr("starting the run…")
+                                                        : tr("estimating the scale from the traffic…"));
     bar_->setRange(0, 0);
     showProgress();
 }
@@ -95,7 +95,7 @@ void StatusFields::stop() {
         return;
     }
     session_.stopRun();
-    work_->setText(tr("stopping …"));
+    work_->setText(tr("stopping…"));
 }
 
 void StatusFields::showFrame() {

@@ -198,7 +198,7 @@ void EvaluationDocks::showErrors() {
         errors_->emptyState()->setTexts(tr("No errors: every object was found in every frame."));
     else
         errors_->emptyState()->setTexts(
-            evaluation_->working() ? tr("The run is being compared with the ground truth …")
+            evaluation_->working() ? tr("The run is being compared with the ground truth…")
             : evaluation_->obstacle().isEmpty()
                 ? tr("Every miss, false alarm, switch, fragment, split and merge of the run is listed here with its "
                      "probable cause, once it has been compared with ground truth.")

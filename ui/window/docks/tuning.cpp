@@ -132,7 +132,7 @@ void Tuning::showPreview() {
         result->motion = stored.result->motion;
     shown.result = std::move(result);
     parts_.canvas.setFrame(std::move(shown));
-    parts_.canvas.setBadge(view ? tr("Preview") : tr("Preview …"));
+    parts_.canvas.setBadge(view ? tr("Preview") : tr("Preview…"));
 }
 
 void Tuning::markStale(bool stale) {
