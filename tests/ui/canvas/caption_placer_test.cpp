@@ -3,7 +3,9 @@
 #include <QTest>
 #include <random>
 
-namespace eyrie::ui {
+#include "ui/support/ui_test.h"
+
+namespace eyrie::ui::caption_placer_test {
 
 class CaptionPlacerTest : public QObject {
     Q_OBJECT
@@ -44,7 +46,7 @@ class CaptionPlacerTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::caption_placer_test
 
-QTEST_APPLESS_MAIN(eyrie::ui::CaptionPlacerTest)
+EYRIE_UI_TEST(QCoreApplication, caption_placer_test, CaptionPlacerTest)
 #include "caption_placer_test.moc"

@@ -11,8 +11,9 @@
 #include "canvas/layers/track_layer.h"
 #include "canvas/layers/zone_layer.h"
 #include "canvas/video_view.h"
+#include "ui/support/ui_test.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::overlays_test {
 
 /// What overlays look like, checked in the painted picture.
 class OverlaysTest : public QObject {
@@ -343,7 +344,7 @@ class OverlaysTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::overlays_test
 
-QTEST_MAIN(eyrie::ui::OverlaysTest)
+EYRIE_UI_TEST(QApplication, overlays_test, OverlaysTest)
 #include "overlays_test.moc"

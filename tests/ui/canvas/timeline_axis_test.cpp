@@ -3,7 +3,9 @@
 #include <QTest>
 #include <cmath>
 
-namespace eyrie::ui {
+#include "ui/support/ui_test.h"
+
+namespace eyrie::ui::timeline_axis_test {
 
 class TimelineAxisTest : public QObject {
     Q_OBJECT
@@ -115,7 +117,7 @@ class TimelineAxisTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::timeline_axis_test
 
-QTEST_APPLESS_MAIN(eyrie::ui::TimelineAxisTest)
+EYRIE_UI_TEST(QCoreApplication, timeline_axis_test, TimelineAxisTest)
 #include "timeline_axis_test.moc"

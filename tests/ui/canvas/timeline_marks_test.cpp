@@ -5,8 +5,9 @@
 #include <set>
 
 #include "canvas/timeline/timeline_view.h"
+#include "ui/support/ui_test.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::timeline_marks_test {
 
 /// Marks on the timeline: what is drawn of many, and what a click finds.
 class TimelineMarksTest : public QObject {
@@ -83,7 +84,7 @@ class TimelineMarksTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::timeline_marks_test
 
-QTEST_MAIN(eyrie::ui::TimelineMarksTest)
+EYRIE_UI_TEST(QApplication, timeline_marks_test, TimelineMarksTest)
 #include "timeline_marks_test.moc"

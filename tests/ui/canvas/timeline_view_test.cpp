@@ -4,7 +4,9 @@
 #include <QTest>
 #include <QWheelEvent>
 
-namespace eyrie::ui {
+#include "ui/support/ui_test.h"
+
+namespace eyrie::ui::timeline_view_test {
 
 class TimelineViewTest : public QObject {
     Q_OBJECT
@@ -147,7 +149,7 @@ class TimelineViewTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::timeline_view_test
 
-QTEST_MAIN(eyrie::ui::TimelineViewTest)
+EYRIE_UI_TEST(QApplication, timeline_view_test, TimelineViewTest)
 #include "timeline_view_test.moc"

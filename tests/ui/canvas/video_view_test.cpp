@@ -6,8 +6,9 @@
 
 #include "canvas/drawing/image_convert.h"
 #include "canvas/layers/track_layer.h"
+#include "ui/support/ui_test.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::video_view_test {
 
 class VideoViewTest : public QObject {
     Q_OBJECT
@@ -162,7 +163,7 @@ class VideoViewTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::video_view_test
 
-QTEST_MAIN(eyrie::ui::VideoViewTest)
+EYRIE_UI_TEST(QApplication, video_view_test, VideoViewTest)
 #include "video_view_test.moc"

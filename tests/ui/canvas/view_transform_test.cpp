@@ -3,7 +3,9 @@
 #include <QTest>
 #include <numbers>
 
-namespace eyrie::ui {
+#include "ui/support/ui_test.h"
+
+namespace eyrie::ui::view_transform_test {
 
 namespace {
 ViewTransform shown(QSize image, QSizeF view, double density = 1) {
@@ -209,7 +211,7 @@ class ViewTransformTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::view_transform_test
 
-QTEST_APPLESS_MAIN(eyrie::ui::ViewTransformTest)
+EYRIE_UI_TEST(QCoreApplication, view_transform_test, ViewTransformTest)
 #include "view_transform_test.moc"

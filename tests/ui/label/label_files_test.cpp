@@ -5,8 +5,9 @@
 
 #include "label/files/label_files.h"
 #include "ui/label/labelling.h"
+#include "ui/support/ui_test.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::label_files_test {
 
 using test::kPatience_ms;
 
@@ -153,7 +154,7 @@ class LabelFilesTest : public QObject, test::Labelling {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::label_files_test
 
-QTEST_MAIN(eyrie::ui::LabelFilesTest)
+EYRIE_UI_TEST(QApplication, label_files_test, LabelFilesTest)
 #include "label_files_test.moc"

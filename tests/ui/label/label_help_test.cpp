@@ -1,11 +1,12 @@
 #include <cmath>
 
 #include "ui/label/labelling.h"
+#include "ui/support/ui_test.h"
 #include "widgets/chip_grid.h"
 #include "widgets/message_bar.h"
 #include "workspace/dock_registry.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::label_help_test {
 
 /// What takes work off the annotator: identity verbs, proposals, tracking, chips and stacks.
 class LabelHelpTest : public QObject, test::Labelling {
@@ -176,7 +177,7 @@ class LabelHelpTest : public QObject, test::Labelling {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::label_help_test
 
-QTEST_MAIN(eyrie::ui::LabelHelpTest)
+EYRIE_UI_TEST(QApplication, label_help_test, LabelHelpTest)
 #include "label_help_test.moc"

@@ -2,9 +2,10 @@
 
 #include "ui/label/labelling.h"
 #include "ui/support/full_disk.h"
+#include "ui/support/ui_test.h"
 #include "widgets/message_bar.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::label_keeping_test {
 
 /// Nothing labelled is lost, and only one window labels.
 class LabelKeepingTest : public QObject, test::Labelling {
@@ -77,7 +78,7 @@ class LabelKeepingTest : public QObject, test::Labelling {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::label_keeping_test
 
-QTEST_MAIN(eyrie::ui::LabelKeepingTest)
+EYRIE_UI_TEST(QApplication, label_keeping_test, LabelKeepingTest)
 #include "label_keeping_test.moc"

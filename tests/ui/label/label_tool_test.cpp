@@ -8,8 +8,9 @@
 #include "canvas/video_view.h"
 #include "label/canvas/box_handles.h"
 #include "label/canvas/label_layer.h"
+#include "ui/support/ui_test.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::label_tool_test {
 
 namespace {
 
@@ -300,7 +301,7 @@ class LabelToolTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::label_tool_test
 
-QTEST_MAIN(eyrie::ui::LabelToolTest)
+EYRIE_UI_TEST(QApplication, label_tool_test, LabelToolTest)
 #include "label_tool_test.moc"

@@ -14,9 +14,10 @@
 #include "label/lists/objects_model.h"
 #include "label/lists/objects_panel.h"
 #include "ui/label/labelling.h"
+#include "ui/support/ui_test.h"
 #include "widgets/message_bar.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::label_workspace_test {
 
 /// The label workspace driven as an annotator does: by mouse and keys.
 class LabelWorkspaceTest : public QObject, test::Labelling {
@@ -389,7 +390,7 @@ class LabelWorkspaceTest : public QObject, test::Labelling {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::label_workspace_test
 
-QTEST_MAIN(eyrie::ui::LabelWorkspaceTest)
+EYRIE_UI_TEST(QApplication, label_workspace_test, LabelWorkspaceTest)
 #include "label_workspace_test.moc"

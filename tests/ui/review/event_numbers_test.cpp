@@ -9,10 +9,11 @@
 #include "support/process.h"
 #include "support/written_run.h"
 #include "ui/support/ui_support.h"
+#include "ui/support/ui_test.h"
 #include "widgets/tables/table_roles.h"
 #include "workspace/window_actions.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::event_numbers_test {
 
 namespace {
 
@@ -99,7 +100,7 @@ class EventNumbersTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::event_numbers_test
 
-QTEST_MAIN(eyrie::ui::EventNumbersTest)
+EYRIE_UI_TEST(QApplication, event_numbers_test, EventNumbersTest)
 #include "event_numbers_test.moc"

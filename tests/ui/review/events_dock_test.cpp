@@ -12,6 +12,7 @@
 #include "review/events/events_panel.h"
 #include "review/inspector_panel.h"
 #include "ui/session/session_support.h"
+#include "ui/support/ui_test.h"
 #include "widgets/charts/stage_times_chart.h"
 #include "widgets/message_bar.h"
 #include "widgets/wiring.h"
@@ -19,7 +20,7 @@
 #include "workspace/timeline_binding.h"
 #include "workspace/window_actions.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::events_dock_test {
 
 using test::kPatience_ms;
 
@@ -264,7 +265,7 @@ class EventsDockTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::events_dock_test
 
-QTEST_MAIN(eyrie::ui::EventsDockTest)
+EYRIE_UI_TEST(QApplication, events_dock_test, EventsDockTest)
 #include "events_dock_test.moc"

@@ -10,11 +10,12 @@
 #include "review/events/event_thresholds.h"
 #include "review/events/events_panel.h"
 #include "ui/support/ui_support.h"
+#include "ui/support/ui_test.h"
 #include "widgets/layout/collapsible_section.h"
 #include "widgets/parameters/parameter_row.h"
 #include "workspace/window_actions.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::events_list_test {
 
 namespace {
 
@@ -254,7 +255,7 @@ class EventsListTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::events_list_test
 
-QTEST_MAIN(eyrie::ui::EventsListTest)
+EYRIE_UI_TEST(QApplication, events_list_test, EventsListTest)
 #include "events_list_test.moc"

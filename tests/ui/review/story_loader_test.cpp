@@ -6,8 +6,9 @@
 #include "core/error.h"
 #include "review/watch/watched_ground.h"
 #include "ui/support/ui_support.h"
+#include "ui/support/ui_test.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::story_loader_test {
 
 using test::kPatience_ms;
 
@@ -94,7 +95,7 @@ class StoryLoaderTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::story_loader_test
 
-QTEST_MAIN(eyrie::ui::StoryLoaderTest)
+EYRIE_UI_TEST(QApplication, story_loader_test, StoryLoaderTest)
 #include "story_loader_test.moc"

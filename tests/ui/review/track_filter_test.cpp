@@ -11,9 +11,10 @@
 #include "review/tracks/filter_chips.h"
 #include "review/tracks_panel.h"
 #include "ui/support/ui_support.h"
+#include "ui/support/ui_test.h"
 #include "widgets/tables/table_roles.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::track_filter_test {
 
 namespace {
 
@@ -298,7 +299,7 @@ class TrackFilterTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::track_filter_test
 
-QTEST_MAIN(eyrie::ui::TrackFilterTest)
+EYRIE_UI_TEST(QApplication, track_filter_test, TrackFilterTest)
 #include "track_filter_test.moc"

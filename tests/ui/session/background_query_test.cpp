@@ -8,8 +8,9 @@
 #include <thread>
 
 #include "session/background/background_query.h"
+#include "ui/support/ui_test.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::background_query_test {
 
 /// What objects of the window have done in the background.
 class BackgroundQueryTest : public QObject {
@@ -269,7 +270,7 @@ class BackgroundQueryTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::background_query_test
 
-QTEST_GUILESS_MAIN(eyrie::ui::BackgroundQueryTest)
+EYRIE_UI_TEST(QCoreApplication, background_query_test, BackgroundQueryTest)
 #include "background_query_test.moc"

@@ -5,8 +5,9 @@
 #include "correction/corrected_run.h"
 #include "store/runs/result_writer.h"
 #include "support/temporary_folder.h"
+#include "ui/support/ui_test.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::corrected_tracks_memo_test {
 
 class CorrectedTracksMemoTest : public QObject {
     Q_OBJECT
@@ -67,7 +68,7 @@ class CorrectedTracksMemoTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::corrected_tracks_memo_test
 
-QTEST_GUILESS_MAIN(eyrie::ui::CorrectedTracksMemoTest)
+EYRIE_UI_TEST(QCoreApplication, corrected_tracks_memo_test, CorrectedTracksMemoTest)
 #include "corrected_tracks_memo_test.moc"

@@ -2,7 +2,9 @@
 
 #include <QTest>
 
-namespace eyrie::ui {
+#include "ui/support/ui_test.h"
+
+namespace eyrie::ui::playback_clock_test {
 
 class PlaybackClockTest : public QObject {
     Q_OBJECT
@@ -70,7 +72,7 @@ class PlaybackClockTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::playback_clock_test
 
-QTEST_APPLESS_MAIN(eyrie::ui::PlaybackClockTest)
+EYRIE_UI_TEST(QCoreApplication, playback_clock_test, PlaybackClockTest)
 #include "playback_clock_test.moc"

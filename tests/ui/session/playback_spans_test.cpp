@@ -2,8 +2,9 @@
 #include <algorithm>
 
 #include "session/frames/playback.h"
+#include "ui/support/ui_test.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::playback_spans_test {
 
 /// Playing some stretches of a video alone.
 class PlaybackSpansTest : public QObject {
@@ -71,7 +72,7 @@ class PlaybackSpansTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::playback_spans_test
 
-QTEST_GUILESS_MAIN(eyrie::ui::PlaybackSpansTest)
+EYRIE_UI_TEST(QCoreApplication, playback_spans_test, PlaybackSpansTest)
 #include "playback_spans_test.moc"

@@ -7,8 +7,9 @@
 #include "store/labels/annotation_store.h"
 #include "ui/session/session_support.h"
 #include "ui/support/full_disk.h"
+#include "ui/support/ui_test.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::session_files_test {
 
 using test::kPatience_ms;
 using test::openAndWait;
@@ -140,7 +141,7 @@ class SessionFilesTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::session_files_test
 
-QTEST_GUILESS_MAIN(eyrie::ui::SessionFilesTest)
+EYRIE_UI_TEST(QCoreApplication, session_files_test, SessionFilesTest)
 #include "session_files_test.moc"

@@ -1,8 +1,9 @@
 #include "ui/session/session_support.h"
 #include "ui/support/full_disk.h"
 #include "ui/support/live_film.h"
+#include "ui/support/ui_test.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::session_live_test {
 
 using eyrie::test::LiveSender;
 using test::kPatience_ms;
@@ -229,7 +230,7 @@ class SessionLiveTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::session_live_test
 
-QTEST_GUILESS_MAIN(eyrie::ui::SessionLiveTest)
+EYRIE_UI_TEST(QCoreApplication, session_live_test, SessionLiveTest)
 #include "session_live_test.moc"

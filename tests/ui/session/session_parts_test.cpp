@@ -5,8 +5,9 @@
 #include "session/project/project_location.h"
 #include "store/labels/annotation_store.h"
 #include "ui/session/session_support.h"
+#include "ui/support/ui_test.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::session_parts_test {
 
 using test::kPatience_ms;
 using test::runAndWait;
@@ -176,7 +177,7 @@ class SessionPartsTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::session_parts_test
 
-QTEST_GUILESS_MAIN(eyrie::ui::SessionPartsTest)
+EYRIE_UI_TEST(QCoreApplication, session_parts_test, SessionPartsTest)
 #include "session_parts_test.moc"

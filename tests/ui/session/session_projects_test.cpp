@@ -1,8 +1,9 @@
 #include "session/project/project_location.h"
 #include "store/labels/annotation_store.h"
 #include "ui/session/session_support.h"
+#include "ui/support/ui_test.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::session_projects_test {
 
 using test::kPatience_ms;
 using test::openAndWait;
@@ -172,7 +173,7 @@ class SessionProjectsTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::session_projects_test
 
-QTEST_GUILESS_MAIN(eyrie::ui::SessionProjectsTest)
+EYRIE_UI_TEST(QCoreApplication, session_projects_test, SessionProjectsTest)
 #include "session_projects_test.moc"

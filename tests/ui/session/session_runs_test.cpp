@@ -1,8 +1,9 @@
 #include "core/error.h"
 #include "store/runs/result_writer.h"
 #include "ui/session/session_support.h"
+#include "ui/support/ui_test.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::session_runs_test {
 
 using test::Door;
 using test::kPatience_ms;
@@ -282,7 +283,7 @@ class SessionRunsTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::session_runs_test
 
-QTEST_GUILESS_MAIN(eyrie::ui::SessionRunsTest)
+EYRIE_UI_TEST(QCoreApplication, session_runs_test, SessionRunsTest)
 #include "session_runs_test.moc"

@@ -2,8 +2,9 @@
 #include <fstream>
 
 #include "ui/session/session_support.h"
+#include "ui/support/ui_test.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::session_test {
 
 using test::kPatience_ms;
 using test::openAndWait;
@@ -148,7 +149,7 @@ class SessionTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::session_test
 
-QTEST_GUILESS_MAIN(eyrie::ui::SessionTest)
+EYRIE_UI_TEST(QCoreApplication, session_test, SessionTest)
 #include "session_test.moc"

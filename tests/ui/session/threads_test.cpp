@@ -4,8 +4,9 @@
 #include "session/background/lru_cache.h"
 #include "session/background/mailbox.h"
 #include "session/live_feed.h"
+#include "ui/support/ui_test.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::threads_test {
 
 /// What carries work and results between threads.
 class ThreadsTest : public QObject {
@@ -88,7 +89,7 @@ class ThreadsTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::threads_test
 
-QTEST_APPLESS_MAIN(eyrie::ui::ThreadsTest)
+EYRIE_UI_TEST(QCoreApplication, threads_test, ThreadsTest)
 #include "threads_test.moc"

@@ -2,7 +2,9 @@
 
 #include <QTest>
 
-namespace eyrie::ui {
+#include "ui/support/ui_test.h"
+
+namespace eyrie::ui::trail_history_test {
 
 class TrailHistoryTest : public QObject {
     Q_OBJECT
@@ -55,7 +57,7 @@ class TrailHistoryTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::trail_history_test
 
-QTEST_APPLESS_MAIN(eyrie::ui::TrailHistoryTest)
+EYRIE_UI_TEST(QCoreApplication, trail_history_test, TrailHistoryTest)
 #include "trail_history_test.moc"

@@ -19,6 +19,7 @@
 #include "tune/evaluate/evaluation_wording.h"
 #include "tune/inspect/why_panel.h"
 #include "ui/support/ui_support.h"
+#include "ui/support/ui_test.h"
 #include "widgets/charts/line_chart.h"
 #include "widgets/charts/tracked_bar.h"
 #include "widgets/message_bar.h"
@@ -30,7 +31,7 @@
 #include "workspace/window_actions.h"
 #include "workspace/workspaces.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::evaluation_test {
 
 using test::kPatience_ms;
 
@@ -387,7 +388,7 @@ class EvaluationTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::evaluation_test
 
-QTEST_MAIN(eyrie::ui::EvaluationTest)
+EYRIE_UI_TEST(QApplication, evaluation_test, EvaluationTest)
 #include "evaluation_test.moc"

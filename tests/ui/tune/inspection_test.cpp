@@ -6,8 +6,9 @@
 #include "tune/inspect/cluster_choice.h"
 #include "tune/inspect/vector_lifetimes.h"
 #include "ui/support/ui_support.h"
+#include "ui/support/ui_test.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::inspection_test {
 
 using test::kPatience_ms;
 
@@ -233,7 +234,7 @@ class InspectionTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::inspection_test
 
-QTEST_MAIN(eyrie::ui::InspectionTest)
+EYRIE_UI_TEST(QApplication, inspection_test, InspectionTest)
 #include "inspection_test.moc"

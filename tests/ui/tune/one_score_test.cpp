@@ -7,8 +7,9 @@
 #include "tune/evaluate/evaluation_session.h"
 #include "tune/sweep/sweep_session.h"
 #include "ui/session/session_support.h"
+#include "ui/support/ui_test.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::one_score_test {
 
 using test::kPatience_ms;
 
@@ -137,7 +138,7 @@ class OneScoreTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::one_score_test
 
-QTEST_MAIN(eyrie::ui::OneScoreTest)
+EYRIE_UI_TEST(QApplication, one_score_test, OneScoreTest)
 #include "one_score_test.moc"

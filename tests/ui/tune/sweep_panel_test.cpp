@@ -18,12 +18,13 @@
 #include "tune/evaluate/truth_choice.h"
 #include "tune/sweep/sweep_form.h"
 #include "ui/support/ui_support.h"
+#include "ui/support/ui_test.h"
 #include "widgets/charts/sweep_chart.h"
 #include "window/docks/evaluation_docks.h"
 #include "window/docks/review_docks.h"
 #include "window/main_window.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::sweep_panel_test {
 
 using test::kPatience_ms;
 
@@ -394,7 +395,7 @@ class SweepPanelTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::sweep_panel_test
 
-QTEST_MAIN(eyrie::ui::SweepPanelTest)
+EYRIE_UI_TEST(QApplication, sweep_panel_test, SweepPanelTest)
 #include "sweep_panel_test.moc"

@@ -17,6 +17,7 @@
 #include "tune/parameters/preset_dialog.h"
 #include "tune/train/training_dialog.h"
 #include "ui/support/ui_support.h"
+#include "ui/support/ui_test.h"
 #include "widgets/charts/sweep_chart.h"
 #include "widgets/parameters/parameter_form.h"
 #include "widgets/parameters/parameter_row.h"
@@ -25,7 +26,7 @@
 #include "workspace/dock_registry.h"
 #include "workspace/window_actions.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::tuning_test {
 
 using test::kPatience_ms;
 
@@ -392,7 +393,7 @@ class TuningTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::tuning_test
 
-QTEST_MAIN(eyrie::ui::TuningTest)
+EYRIE_UI_TEST(QApplication, tuning_test, TuningTest)
 #include "tuning_test.moc"

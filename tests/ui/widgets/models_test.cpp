@@ -7,13 +7,14 @@
 #include "panels_support.h"
 #include "review/runs_model.h"
 #include "review/tracks_model.h"
+#include "ui/support/ui_test.h"
 #include "widgets/display_text.h"
 #include "widgets/tables/table_roles.h"
 #include "widgets/tables/table_sort_proxy.h"
 #include "widgets/tables/table_text.h"
 
-using namespace eyrie;
-using namespace eyrie::ui;
+namespace eyrie::ui::models_test {
+
 using eyrie::ui::test::sampleRun;
 using eyrie::ui::test::sampleTrack;
 using eyrie::ui::test::several;
@@ -252,5 +253,7 @@ class ModelsTest : public QObject {
     }
 };
 
-QTEST_MAIN(ModelsTest)
+}  // namespace eyrie::ui::models_test
+
+EYRIE_UI_TEST(QApplication, models_test, ModelsTest)
 #include "models_test.moc"

@@ -2,9 +2,10 @@
 #include <QTest>
 
 #include "panels_support.h"
+#include "ui/support/ui_test.h"
 #include "widgets/chip_grid.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::panels_chip_grid_test {
 
 namespace {
 
@@ -138,7 +139,7 @@ class ChipGridTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::panels_chip_grid_test
 
-QTEST_MAIN(eyrie::ui::ChipGridTest)
+EYRIE_UI_TEST(QApplication, panels_chip_grid_test, ChipGridTest)
 #include "panels_chip_grid_test.moc"

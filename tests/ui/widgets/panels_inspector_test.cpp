@@ -4,10 +4,10 @@
 
 #include "panels_support.h"
 #include "review/track_inspector.h"
+#include "ui/support/ui_test.h"
 #include "widgets/charts/origin_bar.h"
 
-using namespace eyrie;
-using namespace eyrie::ui;
+namespace eyrie::ui::panels_inspector_test {
 
 namespace {
 
@@ -114,5 +114,7 @@ class InspectorTest : public QObject {
     }
 };
 
-QTEST_MAIN(InspectorTest)
+}  // namespace eyrie::ui::panels_inspector_test
+
+EYRIE_UI_TEST(QApplication, panels_inspector_test, InspectorTest)
 #include "panels_inspector_test.moc"

@@ -4,9 +4,10 @@
 #include <QToolButton>
 
 #include "panels_support.h"
+#include "ui/support/ui_test.h"
 #include "widgets/message_bar.h"
 
-using namespace eyrie::ui;
+namespace eyrie::ui::panels_messages_test {
 
 class MessagesTest : public QObject {
     Q_OBJECT
@@ -94,5 +95,7 @@ class MessagesTest : public QObject {
     }
 };
 
-QTEST_MAIN(MessagesTest)
+}  // namespace eyrie::ui::panels_messages_test
+
+EYRIE_UI_TEST(QApplication, panels_messages_test, MessagesTest)
 #include "panels_messages_test.moc"

@@ -10,12 +10,12 @@
 
 #include "core/error.h"
 #include "panels_support.h"
+#include "ui/support/ui_test.h"
 #include "widgets/parameters/parameter_form.h"
 #include "widgets/parameters/parameter_row.h"
 #include "widgets/real_spin_box.h"
 
-using namespace eyrie;
-using namespace eyrie::ui;
+namespace eyrie::ui::panels_parameter_form_test {
 
 namespace {
 
@@ -325,5 +325,7 @@ class ParameterFormTest : public QObject {
     }
 };
 
-QTEST_MAIN(ParameterFormTest)
+}  // namespace eyrie::ui::panels_parameter_form_test
+
+EYRIE_UI_TEST(QApplication, panels_parameter_form_test, ParameterFormTest)
 #include "panels_parameter_form_test.moc"

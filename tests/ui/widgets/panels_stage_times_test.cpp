@@ -6,12 +6,12 @@
 #include <limits>
 
 #include "panels_support.h"
+#include "ui/support/ui_test.h"
 #include "widgets/charts/stage_times_chart.h"
 #include "widgets/charts/stage_times_data.h"
 #include "widgets/theme_colours.h"
 
-using namespace eyrie;
-using namespace eyrie::ui;
+namespace eyrie::ui::panels_stage_times_test {
 
 namespace {
 
@@ -223,5 +223,7 @@ class StageTimesTest : public QObject {
     }
 };
 
-QTEST_MAIN(StageTimesTest)
+}  // namespace eyrie::ui::panels_stage_times_test
+
+EYRIE_UI_TEST(QApplication, panels_stage_times_test, StageTimesTest)
 #include "panels_stage_times_test.moc"

@@ -12,10 +12,11 @@
 #include "panels_support.h"
 #include "review/runs_panel.h"
 #include "review/tracks_panel.h"
+#include "ui/support/ui_test.h"
 #include "widgets/empty_state.h"
 
-using namespace eyrie;
-using namespace eyrie::ui;
+namespace eyrie::ui::panels_tables_test {
+
 using eyrie::ui::test::sampleRun;
 using eyrie::ui::test::sampleTrack;
 using eyrie::ui::test::several;
@@ -301,5 +302,7 @@ class TablesTest : public QObject {
     }
 };
 
-QTEST_MAIN(TablesTest)
+}  // namespace eyrie::ui::panels_tables_test
+
+EYRIE_UI_TEST(QApplication, panels_tables_test, TablesTest)
 #include "panels_tables_test.moc"

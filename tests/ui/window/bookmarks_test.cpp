@@ -10,13 +10,14 @@
 #include "review/events/event_review.h"
 #include "review/events/events_dock.h"
 #include "ui/session/session_support.h"
+#include "ui/support/ui_test.h"
 #include "widgets/empty_state.h"
 #include "widgets/message_bar.h"
 #include "window/main_window.h"
 #include "workspace/dock_registry.h"
 #include "workspace/window_actions.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::bookmarks_test {
 
 using test::kPatience_ms;
 
@@ -181,7 +182,7 @@ class BookmarksTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::bookmarks_test
 
-QTEST_MAIN(eyrie::ui::BookmarksTest)
+EYRIE_UI_TEST(QApplication, bookmarks_test, BookmarksTest)
 #include "bookmarks_test.moc"

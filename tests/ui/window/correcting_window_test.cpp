@@ -13,6 +13,7 @@
 #include "review/tracks_panel.h"
 #include "support/replaced_tracks.h"
 #include "ui/session/session_support.h"
+#include "ui/support/ui_test.h"
 #include "ui/window/window_with_run.h"
 #include "widgets/message_bar.h"
 #include "widgets/tables/table_roles.h"
@@ -21,7 +22,7 @@
 #include "workspace/dock_registry.h"
 #include "workspace/window_actions.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::correcting_window_test {
 
 using test::kPatience_ms;
 
@@ -306,7 +307,7 @@ class CorrectingWindowTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::correcting_window_test
 
-QTEST_MAIN(eyrie::ui::CorrectingWindowTest)
+EYRIE_UI_TEST(QApplication, correcting_window_test, CorrectingWindowTest)
 #include "correcting_window_test.moc"

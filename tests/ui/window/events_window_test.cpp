@@ -10,6 +10,7 @@
 #include "review/events/events_dock.h"
 #include "review/events/events_panel.h"
 #include "ui/session/session_support.h"
+#include "ui/support/ui_test.h"
 #include "ui/window/window_with_run.h"
 #include "widgets/message_bar.h"
 #include "window/docks/event_report.h"
@@ -17,7 +18,7 @@
 #include "workspace/dock_registry.h"
 #include "workspace/window_actions.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::events_window_test {
 
 using test::kPatience_ms;
 
@@ -106,7 +107,7 @@ class EventsWindowTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::events_window_test
 
-QTEST_MAIN(eyrie::ui::EventsWindowTest)
+EYRIE_UI_TEST(QApplication, events_window_test, EventsWindowTest)
 #include "events_window_test.moc"

@@ -14,12 +14,13 @@
 #include "review/earth/video_earth.h"
 #include "store/labels/annotation_store.h"
 #include "store/review/control_points.h"
+#include "ui/support/ui_test.h"
 #include "ui/window/flown_video.h"
 #include "ui/window/window_with_run.h"
 #include "widgets/message_bar.h"
 #include "workspace/window_actions.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::ground_control_test {
 
 using test::kPatience_ms;
 
@@ -239,7 +240,7 @@ class GroundControlTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::ground_control_test
 
-QTEST_MAIN(eyrie::ui::GroundControlTest)
+EYRIE_UI_TEST(QApplication, ground_control_test, GroundControlTest)
 #include "ground_control_test.moc"

@@ -5,6 +5,7 @@
 #include "review/tracks/filter_chips.h"
 #include "review/tracks_panel.h"
 #include "ui/session/session_support.h"
+#include "ui/support/ui_test.h"
 #include "widgets/message_bar.h"
 #include "widgets/tables/table_roles.h"
 #include "window/docks/review_docks.h"
@@ -12,7 +13,7 @@
 #include "workspace/dock_registry.h"
 #include "workspace/window_actions.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::like_tracks_test {
 
 using test::kPatience_ms;
 
@@ -95,7 +96,7 @@ class LikeTracksTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::like_tracks_test
 
-QTEST_MAIN(eyrie::ui::LikeTracksTest)
+EYRIE_UI_TEST(QApplication, like_tracks_test, LikeTracksTest)
 #include "like_tracks_test.moc"

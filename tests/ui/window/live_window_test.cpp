@@ -7,6 +7,7 @@
 
 #include "ui/session/session_support.h"
 #include "ui/support/live_film.h"
+#include "ui/support/ui_test.h"
 #include "widgets/elided_label.h"
 #include "widgets/message_bar.h"
 #include "window/live/live_dialog.h"
@@ -16,7 +17,7 @@
 #include "window/main_window.h"
 #include "workspace/window_actions.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::live_window_test {
 
 using eyrie::test::LiveSender;
 using test::answer;
@@ -207,7 +208,7 @@ class LiveWindowTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::live_window_test
 
-QTEST_MAIN(eyrie::ui::LiveWindowTest)
+EYRIE_UI_TEST(QApplication, live_window_test, LiveWindowTest)
 #include "live_window_test.moc"

@@ -29,6 +29,7 @@
 #include "tune/inspect/stacks_panel.h"
 #include "tune/inspect/stages_panel.h"
 #include "ui/support/ui_support.h"
+#include "ui/support/ui_test.h"
 #include "widgets/chip_grid.h"
 #include "widgets/message_bar.h"
 #include "window/docks/review_docks.h"
@@ -37,7 +38,7 @@
 #include "workspace/window_actions.h"
 #include "workspace/workspaces.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::main_window_test {
 
 using test::kPatience_ms;
 
@@ -419,7 +420,7 @@ class MainWindowTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::main_window_test
 
-QTEST_MAIN(eyrie::ui::MainWindowTest)
+EYRIE_UI_TEST(QApplication, main_window_test, MainWindowTest)
 #include "main_window_test.moc"

@@ -10,12 +10,13 @@
 #include "review/earth/video_earth.h"
 #include "store/review/control_points.h"
 #include "support/shared_data.h"
+#include "ui/support/ui_test.h"
 #include "ui/window/flown_video.h"
 #include "ui/window/window_with_run.h"
 #include "widgets/empty_state.h"
 #include "workspace/dock_registry.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::metadata_window_test {
 
 using test::kPatience_ms;
 
@@ -198,7 +199,7 @@ class MetadataWindowTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::metadata_window_test
 
-QTEST_MAIN(eyrie::ui::MetadataWindowTest)
+EYRIE_UI_TEST(QApplication, metadata_window_test, MetadataWindowTest)
 #include "metadata_window_test.moc"

@@ -10,11 +10,12 @@
 #include "review/earth/earth_dock.h"
 #include "review/earth/video_earth.h"
 #include "ui/session/session_support.h"
+#include "ui/support/ui_test.h"
 #include "ui/window/flown_video.h"
 #include "widgets/message_bar.h"
 #include "window/main_window.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::parts_window_test {
 
 using test::kPatience_ms;
 
@@ -98,7 +99,7 @@ class PartsWindowTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::parts_window_test
 
-QTEST_MAIN(eyrie::ui::PartsWindowTest)
+EYRIE_UI_TEST(QApplication, parts_window_test, PartsWindowTest)
 #include "parts_window_test.moc"

@@ -11,13 +11,14 @@
 #include "review/watch/watched_ground.h"
 #include "store/runs/result_writer.h"
 #include "ui/session/session_support.h"
+#include "ui/support/ui_test.h"
 #include "widgets/message_bar.h"
 #include "window/main_window.h"
 #include "workspace/dock_registry.h"
 #include "workspace/window_actions.h"
 #include "workspace/workspaces.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::watch_states_test {
 
 using test::kPatience_ms;
 
@@ -183,7 +184,7 @@ class WatchStatesTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::watch_states_test
 
-QTEST_MAIN(eyrie::ui::WatchStatesTest)
+EYRIE_UI_TEST(QApplication, watch_states_test, WatchStatesTest)
 #include "watch_states_test.moc"

@@ -22,13 +22,14 @@
 #include "review/watch/watch_commands.h"
 #include "review/watch/watched_ground.h"
 #include "ui/session/session_support.h"
+#include "ui/support/ui_test.h"
 #include "widgets/message_bar.h"
 #include "window/bars/picture_button.h"
 #include "window/main_window.h"
 #include "workspace/dock_registry.h"
 #include "workspace/window_actions.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::watching_test {
 
 using test::kPatience_ms;
 
@@ -375,7 +376,7 @@ class WatchingTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::watching_test
 
-QTEST_MAIN(eyrie::ui::WatchingTest)
+EYRIE_UI_TEST(QApplication, watching_test, WatchingTest)
 #include "watching_test.moc"

@@ -19,6 +19,7 @@
 #include "store/health/project_contents.h"
 #include "ui/session/session_support.h"
 #include "ui/support/ui_support.h"
+#include "ui/support/ui_test.h"
 #include "widgets/empty_state.h"
 #include "widgets/message_bar.h"
 #include "window/docks/review_docks.h"
@@ -27,7 +28,7 @@
 #include "window/run_guard.h"
 #include "workspace/window_actions.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::window_files_test {
 
 using test::Door;
 using test::kPatience_ms;
@@ -375,7 +376,7 @@ class WindowFilesTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::window_files_test
 
-QTEST_MAIN(eyrie::ui::WindowFilesTest)
+EYRIE_UI_TEST(QApplication, window_files_test, WindowFilesTest)
 #include "window_files_test.moc"

@@ -27,6 +27,7 @@
 #include "review/events/events_dock.h"
 #include "review/track_inspector.h"
 #include "ui/support/ui_support.h"
+#include "ui/support/ui_test.h"
 #include "widgets/message_bar.h"
 #include "window/main_window.h"
 #include "window/theme.h"
@@ -34,7 +35,7 @@
 #include "workspace/key_sheet.h"
 #include "workspace/window_actions.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::workspaces_test {
 
 using test::kPatience_ms;
 
@@ -414,7 +415,7 @@ class WorkspacesTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::workspaces_test
 
-QTEST_MAIN(eyrie::ui::WorkspacesTest)
+EYRIE_UI_TEST(QApplication, workspaces_test, WorkspacesTest)
 #include "workspaces_test.moc"

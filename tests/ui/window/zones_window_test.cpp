@@ -17,13 +17,14 @@
 #include "review/zones/zones_model.h"
 #include "review/zones/zones_panel.h"
 #include "ui/session/session_support.h"
+#include "ui/support/ui_test.h"
 #include "ui/window/window_with_run.h"
 #include "widgets/message_bar.h"
 #include "window/main_window.h"
 #include "workspace/dock_registry.h"
 #include "workspace/window_actions.h"
 
-namespace eyrie::ui {
+namespace eyrie::ui::zones_window_test {
 
 using test::kPatience_ms;
 
@@ -270,7 +271,7 @@ class ZonesWindowTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui
+}  // namespace eyrie::ui::zones_window_test
 
-QTEST_MAIN(eyrie::ui::ZonesWindowTest)
+EYRIE_UI_TEST(QApplication, zones_window_test, ZonesWindowTest)
 #include "zones_window_test.moc"
