@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <mutex>
+#include <opencv2/core/utility.hpp>
 #include <string>
 #include <vector>
 
@@ -158,12 +160,22 @@ std::vector<Outcome> outcomesOf(FrameSource& source, FrameIndex first, FrameInde
     SceneScale scale;
     scale.frame_rate_hz = frame_rate_hz;
     LookProgress progress(told, kAssumptions * static_cast<int>(frames.size()));
-    std::vector<Outcome> outcomes;
-    for (int i = 0; i < kAssumptions; ++i) {
-        scale.gsd_m_per_px = assumption(i);
-        outcomes.push_back(outcomeUnder(frames, looking, scale, stop, [&] { progress.step(); }));
-        if (stop.stop_requested()) return {};
-    }
+    std::mutex telling;
+    const auto tell = [&] {
+        const std::scoped_lock lock(telling);
+        progress.step();
+    };
+    std::vector<Outcome> outcomes(kAssumptions);
+    // The chains have nothing to do with each other, which keeps processors busier than what one does beside itself.
+    const auto look = [&](const cv::Range& range) {
+        for (int i = range.start; i < range.end; ++i) {
+            SceneScale assumed = scale;
+            assumed.gsd_m_per_px = assumption(i);
+            outcomes[static_cast<std::size_t>(i)] = outcomeUnder(frames, looking, assumed, stop, tell);
+        }
+    };
+    cv::parallel_for_(cv::Range(0, kAssumptions), look, kAssumptions);
+    if (stop.stop_requested()) return {};
     return outcomes;
 }
 

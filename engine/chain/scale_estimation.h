@@ -22,7 +22,7 @@ struct ScaleEstimate {
 /// Frames of one look; where no more are there, what these show decides.
 inline constexpr int kFramesOfLook = 40;
 
-/// Receives the progress of the look, on the thread that looks.
+/// Receives the progress of the look, from one thread at a time, which need not be the one that asked.
 using ScaleProgress = std::function<void(const RunProgress&)>;
 
 /// The scale of a run, and where it comes from.
