@@ -136,7 +136,6 @@ int runLiveCommand(const LiveArguments& arguments) {
                    .c_str(),
                stdout);
     std::printf("Recording: %s\n", run.recording().c_str());
-    if (const std::string given_up = result.load.text(); !given_up.empty()) std::printf("Live: %s\n", given_up.c_str());
     if (result.summary.outcome != RunOutcome::failed) {
         checkRecording(run.recording(), result.summary.frames_done, interrupt.token());
         return exit_ok;

@@ -52,8 +52,9 @@ enum class RunOutcome { finished, stopped, failed };
 /// How a run ended.
 struct RunSummary {
     RunOutcome outcome = RunOutcome::failed;
-    std::string message = "the run was never started";  ///< why it failed; empty when finished
-    ErrorKind error = ErrorKind::internal;              ///< who has to act when it failed
+    /// Why it failed; of a finished run what else there is to say, mostly nothing. For people.
+    std::string message = "the run was never started";
+    ErrorKind error = ErrorKind::internal;  ///< who has to act when it failed
     int frames_done = 0;
     int frames_total = 0;
     int unregistered_frames = 0;

@@ -18,14 +18,24 @@ struct StopAfter : ChainObserver {
     }
 };
 
-RunRecord record(const std::filesystem::path& project, int stop_after) {
-    const test::MovingScene scene;
-    test::MemorySource source(scene);
+RunRecord record(const std::filesystem::path& project, test::MemorySource& source, int stop_after,
+                 FrameRange range = {}) {
     const SceneScale scale = sceneScale(source.info(), 0.2);
     StopAfter stopper(stop_after);
-    RunRecorder recorder(project, plannedRun(source.info(), scale, {}, "default"), ChainOptions{}, &stopper);
-    return recorder.finish(ChainRun(ChainOptions{}, scale).run(source, {}, recorder, stopper.stop.get_token()));
+    RunRecorder recorder(project, plannedRun(source.info(), scale, range, "default"), ChainOptions{}, &stopper);
+    return recorder.finish(ChainRun(ChainOptions{}, scale).run(source, range, recorder, stopper.stop.get_token()));
 }
+
+RunRecord record(const std::filesystem::path& project, int stop_after) {
+    test::MemorySource source((test::MovingScene()));
+    return record(project, source, stop_after);
+}
+
+/// Somebody still writes it.
+struct GrowingSource : test::MemorySource {
+    using MemorySource::MemorySource;
+    bool hasGrown() const override { return true; }
+};
 
 }  // namespace
 
@@ -57,6 +67,18 @@ TEST(RunRecorder, aStoppedRunKeepsItsFramesAndASecondRunIsAdded) {
     ProjectFile project = ProjectFile::open(folder / "p.eyrie");
     EXPECT_EQ(RunStore(project).runs().size(), 2U);
     EXPECT_FALSE(RunStore(project).trackBoxes(stopped.id).empty());
+}
+
+TEST(RunRecorder, ARunToTheEndOfAVideoThatHasGrownMeanwhileSaysSo) {
+    const test::TemporaryFolder folder;
+    test::MovingScene scene;
+    scene.frames = 8;
+    GrowingSource source(scene);
+    const RunRecord run = record(folder / "p.eyrie", source, 1000);
+    EXPECT_EQ(run.state, RunState::finished);
+    EXPECT_EQ(run.message, "the video has grown since it was opened; the run ends with frame 7, its last then");
+    EXPECT_EQ(record(folder / "p.eyrie", source, 1000, {0, 5}).message, "") << "whoever asks for a part has that";
+    EXPECT_EQ(record(folder / "p.eyrie", source, 3).message, "");
 }
 
 }  // namespace eyrie::run_recorder_test

@@ -56,7 +56,7 @@ TEST_F(HandOver, ALiveSourceIsRecordedFollowedAndTold) {
     const test::ProcessResult result = run.wait();
     EXPECT_EQ(result.exit_code, 0) << result.errors;
     EXPECT_THAT(result.output, AllOf(HasSubstr("finished"), HasSubstr("Recording: " + at("live.ts")),
-                                     HasSubstr("Live: "), HasSubstr("no picture came for 2 s")));
+                                     HasSubstr("Note: "), HasSubstr("no picture came for 2 s")));
     EXPECT_TRUE(std::filesystem::exists(at("tracks.csv")));
     EXPECT_EQ(call({"check", at("live.eyrie")}).exit_code, 0);
     // The recording is a video like any other, and its run one like any other.

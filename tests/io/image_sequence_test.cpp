@@ -71,6 +71,16 @@ TEST_F(Images, AreReadInNaturalOrderAndOthersPassedOver) {
     EXPECT_EQ(source->info().container, "folder");
 }
 
+TEST_F(Images, AFolderThatMoreComeIntoHasGrown) {
+    writeFlat("1.png", 10);
+    const auto source = open();
+    test::writeBytes(folder_ / "notes.txt", "no image");
+    EXPECT_FALSE(source->hasGrown());
+    writeFlat("2.png", 20);
+    EXPECT_TRUE(source->hasGrown());
+    EXPECT_EQ(source->info().frame_count, 1) << "of when it was opened";
+}
+
 TEST_F(Images, EveryKindIsRead) {
     for (const char* name : {"1.png", "2.jpg", "3.JPEG", "4.tif", "5.TIFF", "6.pgm", "7.bmp"}) {
         cv::Mat image(30, 40, CV_8UC1, cv::Scalar(90));

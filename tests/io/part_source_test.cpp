@@ -55,6 +55,18 @@ class PartSourceTest : public testing::Test {
 
 }  // namespace
 
+TEST_F(PartSourceTest, HasGrownWhereOneOfItsFilesHas) {
+    const auto alone = openSource(folder_ / "rec_3.mp4", options_);
+    const auto source = open();
+    EXPECT_FALSE(source->hasGrown());
+    EXPECT_FALSE(alone->hasGrown());
+    test::writeBytes(folder_ / "rec_3.mp4", test::bytesOf(folder_ / "rec_3.mp4") + "and more");
+    EXPECT_TRUE(source->hasGrown());
+    EXPECT_TRUE(alone->hasGrown());
+    std::filesystem::remove(folder_ / "rec_3.mp4");
+    EXPECT_FALSE(alone->hasGrown());
+}
+
 TEST_F(PartSourceTest, FramesAndTimesRunOnOverTheSeams) {
     const auto source = open();
     ASSERT_EQ(source->info().frame_count, 40);

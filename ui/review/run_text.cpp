@@ -91,7 +91,7 @@ QString runSummaryText(const RunRecord& run, const RunFacts& facts) {
     else
         sentences << tr("%1: %2.").arg(howItEnded(run, facts),
                                        tracks == 1 ? tr("1 track") : tr("%1 tracks").arg(QLocale().toString(tracks)));
-    if (facts.state == RunState::finished && !run.message.empty())  // of a live source
+    if (facts.state == RunState::finished && !run.message.empty())
         sentences << capitalised(QString::fromStdString(run.message)) + QLatin1Char('.');
     if (facts.counts.unregistered > 0) sentences << unregisteredText(facts.counts) + QLatin1Char('.');
     sentences << tr("Scale: %1.").arg(scaleText(run));

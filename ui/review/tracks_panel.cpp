@@ -189,7 +189,8 @@ void TracksPanel::activate(int track, int column) {
 void TracksPanel::fillMenu(QMenu& menu, int track) {
     menu.addAction(tr("Go to its first frame"), this, [this, track] { activate(track, TracksModel::first_column); });
     menu.addAction(tr("Go to its last frame"), this, [this, track] { activate(track, TracksModel::last_column); });
-    menu.addAction(tr("Tracks like this one"), this, [this, track] { listLike(track); });
+    menu.addSeparator();
+    menu.addActions(menu_actions_);
 }
 
 }  // namespace eyrie::ui

@@ -37,6 +37,8 @@ class TracksPanel : public TablePanel {
     /// `model` must outlive the panel.
     explicit TracksPanel(TracksModel* model, QWidget* parent = nullptr);
     void setCommands(TrackListCommands commands) { commands_ = std::move(commands); }
+    /// What the menu of a row offers beside going there: commands for the selected track, which outlive the panel.
+    void setMenuActions(QList<QAction*> actions) { menu_actions_ = std::move(actions); }
     /// Whether tracks that were never confirmed are listed; at first they are not.
     void setTentativeShown(bool shown);
     /// Tracks of a lower score are no part of the result of the run that is listed: there the slider stands until
@@ -79,6 +81,7 @@ class TracksPanel : public TablePanel {
     int placeOf(double score) const;
     TracksModel* tracks_;
     TrackListCommands commands_;
+    QList<QAction*> menu_actions_;
     QToolButton* tentative_;
     QSlider* sensitivity_;
     QLabel* count_;

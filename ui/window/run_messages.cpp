@@ -46,7 +46,8 @@ void RunMessages::wireRuns() {
     connect(&session_, &ProjectSession::runSummarised, this, [this](const RunRecord& run, const RunFacts& facts) {
         const bool doubtful = facts.counts.tracks == 0 || facts.state == RunState::failed;
         messages_.showTopic(kRunTopic, doubtful ? MessageKind::warning : MessageKind::info, runSummaryText(run, facts),
-                            tr("Show the tracks"), [this] { docks_.raise(DockId::tracks); });
+                            facts.counts.tracks > 0 ? tr("Show the tracks") : QString(),
+                            [this] { docks_.raise(DockId::tracks); });
     });
     connect(&session_, &ProjectSession::runRemoved, this, [this](const RunRecord& run) {
         messages_.showTopic(kRunTopic, MessageKind::info,

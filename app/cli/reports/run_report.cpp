@@ -97,7 +97,9 @@ std::string summaryText(const VideoInfo& video, const RunRecord& run, const RunS
     text += formatted("Run %d %s: %d of %d frames in %s (%.1f frames/s)", run.id, nameOf(summary.outcome),
                       summary.frames_done, summary.frames_total, clockText(summary.seconds).c_str(),
                       summary.seconds > 0 ? summary.frames_done / summary.seconds : 0.0);
-    text += "\n" + unregisteredText(facts.counts);
+    text += "\n";
+    if (summary.outcome == RunOutcome::finished && !run.message.empty()) text += "Note: " + run.message + "\n";
+    text += unregisteredText(facts.counts);
     int confirmed = 0;
     int two_wheelers = 0;
     int persons = 0;

@@ -67,6 +67,9 @@ class FrameSource {
     /// The pictures of a video file in file order, without decoding; nothing for what is none. Of several parts one
     /// after the other, the clock of each container shifted so that it goes on from the part before.
     virtual std::vector<PictureStamp> pictureStamps() const { return {}; }
+    /// Whether there is more of the video now than when it was opened, since somebody still writes it. Its frames stay
+    /// those of then; who wants the others opens it anew.
+    virtual bool hasGrown() const { return false; }
 };
 
 struct SourceOptions {

@@ -161,6 +161,14 @@ std::int64_t ImageSequence::timeOf(FrameIndex index) const {
     return std::llround(index * 1e6 / info_.frame_rate_hz);
 }
 
+bool ImageSequence::hasGrown() const {
+    try {
+        return isFolder(info_.path) && imagesIn(info_.path).size() > files_.size();
+    } catch (const Error&) {
+        return false;  // it is gone
+    }
+}
+
 Frame ImageSequence::read(FrameIndex index, bool with_colour) {
     checkIndex(index);
     const std::filesystem::path& file = files_[static_cast<std::size_t>(index)];

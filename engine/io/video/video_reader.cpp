@@ -65,6 +65,7 @@ FrameTiming timingOf(const std::vector<std::int64_t>& ticks, double tick_s) {
 VideoReader::VideoReader(const std::filesystem::path& path, const SourceOptions& options, const IndexProgress& progress,
                          std::stop_token stop) {
     info_.path = std::filesystem::absolute(path).lexically_normal();
+    bytes_ = std::filesystem::file_size(info_.path);
     const IndexCache cache(options.index_folder);
     if (auto known = cache.load(info_.path)) {
         index_ = std::move(*known);
@@ -77,6 +78,12 @@ VideoReader::VideoReader(const std::filesystem::path& path, const SourceOptions&
         if (index_.packets[number].key && frame_of_packet_[number] >= 0)
             key_packets_.push_back(static_cast<int>(number));
     describe(options);
+}
+
+bool VideoReader::hasGrown() const {
+    std::error_code gone;
+    const std::uintmax_t bytes = std::filesystem::file_size(info_.path, gone);
+    return !gone && bytes > bytes_;
 }
 
 void VideoReader::describe(const SourceOptions& options) {

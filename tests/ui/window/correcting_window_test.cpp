@@ -1,5 +1,8 @@
+#include <QApplication>
+#include <QMenu>
 #include <QTableView>
 #include <QTest>
+#include <QTimer>
 #include <algorithm>
 #include <cmath>
 
@@ -62,6 +65,18 @@ class CorrectingWindowTest : public QObject {
                        window.actions().add_track->isEnabled();
             },
             kPatience_ms);
+    }
+    /// What the menu of the selected row offers.
+    static QList<QAction*> menuOf(const TablePanel& panel) {
+        QList<QAction*> offered;
+        QTimer::singleShot(0, panel.table(), [&] {
+            auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+            if (menu == nullptr) return;
+            offered = menu->actions();
+            menu->close();
+        });
+        emit panel.table()->customContextMenuRequested({});
+        return offered;
     }
     static QString statusOf(MainWindow& window, TrackId track) {
         const QAbstractItemModel* shown = window.review().tracks().table()->model();
@@ -232,6 +247,7 @@ class CorrectingWindowTest : public QObject {
         const FrameIndex cut = (whole.first_frame + whole.last_frame) / 2;
         QVERIFY(goTo(*window, whole.first_frame));
         QVERIFY(window->actions().split_track->isEnabled());
+        QVERIFY2(menuOf(window->review().tracks()).contains(window->actions().split_track), "the list offers it, too");
         QTest::keyClick(&window->canvas(), Qt::Key_Y, Qt::ShiftModifier);
         QVERIFY(tells(*window, QStringLiteral("between its first and its last frame")));
         QVERIFY(waitForTracks(*window, all));

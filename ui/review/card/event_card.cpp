@@ -15,6 +15,7 @@ namespace eyrie::ui {
 namespace {
 constexpr int kChipPeriod_ms = 120;
 constexpr int kLongestNote = 500;
+constexpr int kSpeedLines = 9;  ///< of text that the sketch of the speed is high at most
 }  // namespace
 
 EventCard::EventCard(QWidget* parent) : QWidget(parent), loop_(kChipPeriod_ms, [this] { nextChip(); }) {
@@ -26,6 +27,7 @@ EventCard::EventCard(QWidget* parent) : QWidget(parent), loop_(kChipPeriod_ms, [
     picture_->setFixedSize(StoryLoader::kChipSize, StoryLoader::kChipSize);
     picture_->setAccessibleName(tr("The vehicle, two seconds before to two after"));
     speed_ = new StorySketch(StorySketch::Kind::speed);
+    speed_->setMaximumHeight(kSpeedLines * fontMetrics().lineSpacing());
     way_ = new StorySketch(StorySketch::Kind::way);
     note_ = new QLineEdit;
     note_->setMaxLength(kLongestNote);
@@ -45,7 +47,8 @@ EventCard::EventCard(QWidget* parent) : QWidget(parent), loop_(kChipPeriod_ms, [
     grid->addWidget(speed_, 2, 0, 1, 2);
     grid->addWidget(note_, 3, 0, 1, 2);
     grid->addWidget(tags_, 4, 0, 1, 2);
-    grid->setRowStretch(2, 1);
+    grid->setRowStretch(2, 4);
+    grid->setRowStretch(5, 1);
     grid->setColumnStretch(1, 1);
     stack_ = new QStackedLayout(this);
     stack_->addWidget(empty);

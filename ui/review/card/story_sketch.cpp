@@ -54,8 +54,11 @@ QString StorySketch::figureText() const {
 QPolygonF StorySketch::line() const {
     QPolygonF line;
     if (points_.empty()) return line;
-    const QRectF room = QRectF(rect()).adjusted(kSketchMargin, kSketchMargin, -kSketchMargin, -kSketchMargin);
+    QRectF room = QRectF(rect()).adjusted(kSketchMargin, kSketchMargin, -kSketchMargin, -kSketchMargin);
     if (kind_ == Kind::speed) {
+        // Below the figure, where there is room for both.
+        if (const double figure = fontMetrics().lineSpacing(); room.height() > 2 * figure)
+            room.setTop(room.top() + figure);
         double most = 0;
         for (const StoryPoint& point : points_) most = std::max(most, point.speed);
         const double begin = points_.front().seconds;

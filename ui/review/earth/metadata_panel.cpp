@@ -56,6 +56,11 @@ MetadataPanel::MetadataPanel(ProjectSession& session, VideoEarth& earth, Metadat
     showMetadata();
 }
 
+int MetadataPanel::longestShown(int column) const {
+    constexpr int kLongestName = 22;  // beside it there is room for what it says
+    return column == MetadataModel::name_column ? kLongestName : TablePanel::longestShown(column);
+}
+
 void MetadataPanel::setLookedAt(bool looked_at) {
     looked_at_ = looked_at;
     if (looked_at && stale_) showMetadata();

@@ -30,6 +30,9 @@ class MetadataPanel : public TablePanel {
     /// What is said above the table.
     QString summary() const;
 
+ protected:
+    int longestShown(int column) const override;
+
  private:
     MetadataPanel(ProjectSession& session, VideoEarth& earth, MetadataModel* model, QWidget* parent);
     void showMetadata();

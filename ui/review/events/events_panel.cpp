@@ -91,8 +91,6 @@ void EventsPanel::buildButtons() {
         row.addWidget(button);
         return button;
     };
-    // Up there: the row of buttons decides how narrow the column can be.
-    zones_button_ = addSwitch(*toolRow(), tr("Zones"), tr("Areas and lines that are watched: draw, name, delete them"));
     auto* report = new QToolButton;
     report->setText(tr("Report…"));
     report->setToolTip(tr("Write events with pictures and verdicts as one HTML or PDF file"));
@@ -104,6 +102,7 @@ void EventsPanel::buildButtons() {
     report->setMenu(choices);
     buttons->addWidget(report);
     limits_button_ = addSwitch(*buttons, tr("Limits"), tr("What counts as an event"));
+    zones_button_ = addSwitch(*buttons, tr("Zones"), tr("Areas and lines that are watched: draw, name, delete them"));
     bindSwitches(this, {{limits_button_, [this](bool on) { showThresholds(on); }},
                         {zones_button_, [this](bool on) { showZones(on); }}});
     layout()->addWidget(line);

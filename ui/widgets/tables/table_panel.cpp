@@ -186,7 +186,8 @@ int TablePanel::neededWidth(int column) const {
     const QString title = proxy_->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
     const int arrow = header->sortIndicatorSection() == column ? kArrow : 0;
     const int own = header->fontMetrics().horizontalAdvance(title) + kMargin + arrow;
-    return std::max(own, view->sizeHintForColumn(column) + 1);
+    const double longest = static_cast<double>(longestShown(column)) * header->fontMetrics().averageCharWidth();
+    return std::max(own, static_cast<int>(std::min<double>(longest, view->sizeHintForColumn(column) + 1)));
 }
 
 void TablePanel::fitColumns() {

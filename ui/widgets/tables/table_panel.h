@@ -2,6 +2,7 @@
 
 #include <QList>
 #include <QWidget>
+#include <climits>
 #include <optional>
 
 #include "widgets/delayed_call.h"
@@ -51,6 +52,8 @@ class TablePanel : public QWidget {
     virtual void rowClicked(int /*id*/, int /*column*/) {}
     /// The user double-clicked a row or pressed Enter on it.
     virtual void rowDoubleClicked(int /*id*/) {}
+    /// How many characters wide a column is made at most, of the model; what is longer is in its tooltip.
+    virtual int longestShown(int /*column*/) const { return INT_MAX; }
     /// Adds entries to the menu of a row.
     virtual void fillMenu(QMenu&, int /*id*/) {}
     /// What is said, and what the button beside it does, while there are rows but none is shown.

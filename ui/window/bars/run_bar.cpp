@@ -163,9 +163,12 @@ QString RunBar::gsdOfSettings() const {
 void RunBar::showOrigin() {
     const RunRecord* run = session_.shownRun();
     // Without a run nothing was estimated yet.
-    gsd_->setPlaceholderText(run != nullptr && run->scale_basis.origin == ScaleOrigin::estimated
-                                 ? tr("unknown; estimated %1").arg(locale().toString(run->scale.gsd_m_per_px, 'g', 3))
-                                 : unknownGsdText());
+    QString known = unknownGsdText();
+    if (run != nullptr && run->scale_basis.origin == ScaleOrigin::estimated)
+        known = tr("unknown; estimated %1").arg(locale().toString(run->scale.gsd_m_per_px, 'g', 3));
+    else if (run != nullptr && run->scale_basis.origin == ScaleOrigin::metadata)
+        known = tr("%1 by the metadata").arg(locale().toString(run->scale.gsd_m_per_px, 'g', 3));
+    gsd_->setPlaceholderText(known);
     QString tip =
         tr("Ground sampling distance: metres on the ground per pixel. Without it the run looks at the traffic for a "
            "scale to work with, and results are shown in pixels instead of metres and km/h.");

@@ -115,6 +115,9 @@ void ReviewDocks::wireTracks() {
         .want_doings = [this] { want_doings_(); },
         .want_likeness = [this](std::optional<TrackId> track) { want_likeness_(track); },
     });
+    const WindowActions& actions = parts_.actions;
+    tracks_->setMenuActions({actions.follow_object, actions.like_track, actions.join_tracks, actions.split_track,
+                             actions.remove_correction});
 }
 
 void ReviewDocks::explainNoTracks() {
