@@ -140,6 +140,8 @@ int runLiveCommand(const LiveArguments& arguments) {
         checkRecording(run.recording(), result.summary.frames_done, interrupt.token());
         return exit_ok;
     }
+    if (const std::string given_up = result.load.text(); !given_up.empty())
+        std::fprintf(stderr, "%s\n", given_up.c_str());
     std::fprintf(stderr, "eyrie-cli: the run failed after %d frames: %s\n", result.summary.frames_done,
                  result.summary.message.c_str());
     return exitCodeOf(result.summary.error);

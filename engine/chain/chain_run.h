@@ -34,7 +34,8 @@ struct ChainState {
     std::string bytes;
 };
 
-/// Receives the results of a run, frame after frame, on the run's own thread. Must not throw anything but Error; an
+/// Receives the results of a run, frame after frame, on the run's own thread; the progress of the look at the scale
+/// before it from any thread, one at a time. Must not throw anything but Error; an
 /// Error ends the run as failed.
 class ChainObserver {
  public:

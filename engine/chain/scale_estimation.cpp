@@ -1,7 +1,9 @@
 #include "chain/scale_estimation.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <future>
 #include <map>
 #include <mutex>
 #include <opencv2/core/utility.hpp>
@@ -166,24 +168,27 @@ std::vector<Outcome> outcomesOf(FrameSource& source, FrameIndex first, FrameInde
         progress.step();
     };
     std::vector<Outcome> outcomes(kAssumptions);
-    // The chains have nothing to do with each other, which keeps processors busier than what one does beside itself.
-    const auto look = [&](const cv::Range& range) {
-        for (int i = range.start; i < range.end; ++i) {
+    std::atomic<int> next{0};
+    const auto look = [&] {
+        for (int i = next++; i < kAssumptions; i = next++) {
             SceneScale assumed = scale;
             assumed.gsd_m_per_px = assumption(i);
             outcomes[static_cast<std::size_t>(i)] = outcomeUnder(frames, looking, assumed, stop, tell);
         }
     };
-    cv::parallel_for_(cv::Range(0, kAssumptions), look, kAssumptions);
+    // One chain leaves processors idle. Threads of their own: what waits in a pool for a part of one chain would begin
+    // another chain meanwhile, and all would be held at once.
+    std::vector<std::future<void>> others;
+    for (int i = 1; i < std::min(kAssumptions, cv::getNumThreads()); ++i)
+        others.push_back(std::async(std::launch::async, look));
+    look();
+    for (auto& other : others) other.get();
     if (stop.stop_requested()) return {};
     return outcomes;
 }
 
-}  // namespace
-
-namespace {
-
-ScaleBasis basisOf(const SceneScale& scale, const StatedScale& stated, const std::optional<ScaleEstimate>& estimate) {
+ScaleBasis basisOfChoice(const SceneScale& scale, const StatedScale& stated,
+                         const std::optional<ScaleEstimate>& estimate) {
     if (scale.gsd_known) return {stated.origin};
     if (!estimate) return {ScaleOrigin::assumed};
     return {ScaleOrigin::estimated, estimate->uncertainty, estimate->vehicles};
@@ -229,7 +234,7 @@ ChosenScale chooseScale(FrameSource& source, FrameRange range, const ChainOption
         if (chosen.estimate) scale.gsd_m_per_px = chosen.estimate->gsd_m_per_px;
     }
     scale.slope = slopeFor(source, range, options, scale, stop, told);
-    chosen.basis = basisOf(scale, stated, chosen.estimate);
+    chosen.basis = basisOfChoice(scale, stated, chosen.estimate);
     return chosen;
 }
 

@@ -62,7 +62,7 @@ void describeOne(EventOptions& options, const ParameterDeclarer& declare) {
                  {"km/h", "Speed below which a vehicle that moves is told as slow.", ""});
     declare.real("events.under_time", options.under_time_s, 0, 600, {"s", "For at least so long.", ""});
     declare.real("events.loiter_radius", options.loiter_radius_m, 1, 1000,
-                 {"m", "A vehicle loiters that stays within such a circle…", ""});
+                 {"m", "A vehicle loiters that stays within such a circle …", ""});
     declare.real("events.loiter_time", options.loiter_time_s, 1, 3600,
                  {"s", "… for at least so long, and drives at least twice the circle's diameter meanwhile.", ""});
 }

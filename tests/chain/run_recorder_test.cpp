@@ -34,7 +34,7 @@ RunRecord record(const std::filesystem::path& project, int stop_after) {
 /// Somebody still writes it.
 struct GrowingSource : test::MemorySource {
     using MemorySource::MemorySource;
-    bool hasGrown() const override { return true; }
+    bool hasGrown() const noexcept override { return true; }
 };
 
 }  // namespace
@@ -69,14 +69,15 @@ TEST(RunRecorder, aStoppedRunKeepsItsFramesAndASecondRunIsAdded) {
     EXPECT_FALSE(RunStore(project).trackBoxes(stopped.id).empty());
 }
 
-TEST(RunRecorder, ARunToTheEndOfAVideoThatHasGrownMeanwhileSaysSo) {
+TEST(RunRecorder, aRunToTheEndOfAVideoThatHasGrownMeanwhileSaysSo) {
     const test::TemporaryFolder folder;
     test::MovingScene scene;
     scene.frames = 8;
     GrowingSource source(scene);
     const RunRecord run = record(folder / "p.eyrie", source, 1000);
     EXPECT_EQ(run.state, RunState::finished);
-    EXPECT_EQ(run.message, "the video has grown since it was opened; the run ends with frame 7, its last then");
+    EXPECT_EQ(run.message,
+              "the video has grown since it was opened; the run ends with frame 7, which was the last one then");
     EXPECT_EQ(record(folder / "p.eyrie", source, 1000, {0, 5}).message, "") << "whoever asks for a part has that";
     EXPECT_EQ(record(folder / "p.eyrie", source, 3).message, "");
 }

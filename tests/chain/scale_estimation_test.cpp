@@ -89,6 +89,25 @@ TEST(ScaleEstimation, aStatedScaleIsTakenAsItIsAndItIsKeptWhoStatedIt) {
     }
 }
 
+TEST(ScaleEstimation, whatASourceKnowsItselfCountsAsGiven) {
+    const auto scene = openScene("seq2");
+    const ChosenScale chosen = chooseScale(*scene, {}, ChainOptions{}, {}, {});
+    EXPECT_EQ(chosen.basis, ScaleBasis{ScaleOrigin::given});
+    EXPECT_EQ(chosen.scale.gsd_m_per_px, scene->info().gsd_m_per_px);
+}
+
+TEST(ScaleEstimation, isTheSameOnOneProcessor) {
+    test::MemorySource source((test::MovingScene()));
+    const auto beside = lookAt(source);
+    cv::setNumThreads(1);
+    const auto alone = lookAt(source);
+    cv::setNumThreads(-1);
+    ASSERT_TRUE(beside && alone);
+    EXPECT_EQ(alone->gsd_m_per_px, beside->gsd_m_per_px);
+    EXPECT_EQ(alone->uncertainty, beside->uncertainty);
+    EXPECT_EQ(alone->vehicles, beside->vehicles);
+}
+
 TEST(ScaleEstimation, withoutTrafficItFallsBackAndDoesNotFail) {
     test::MovingScene scene;
     scene.vehicles.clear();

@@ -71,6 +71,17 @@ TEST_F(MetadataCommand, tellsScaleNorthAndFootprintOfAFrame) {
     EXPECT_THAT(none.output, HasSubstr("No metadata"));
 }
 
+TEST_F(MetadataCommand, aComparisonTakesItsScaleFromThemAsARunDoes) {
+    EYRIE_NEED_SHARED_DATA("klv");
+    std::ofstream(at("truth.csv")) << "frame,id,x,y,length,width,heading,class,ignore\n0,1,50,50,20,10,0,car,0\n";
+    const auto compared = call({"compare", "--sequence", shared("aphill_short.ts"), "--frames", "0:5", "--methods",
+                                "clusters", "--ground-truth", at("truth.csv"), "--project", at("p.eyrie")});
+    EXPECT_EQ(compared.exit_code, 0) << compared.errors;
+    EXPECT_THAT(compared.output + compared.errors, HasSubstr("from the video's metadata (the frame corners)"));
+    const auto told = nlohmann::json::parse(call({"info", at("p.eyrie"), "--json"}).output);
+    EXPECT_EQ(told["runs"][0]["scale_origin"], "metadata");
+}
+
 TEST_F(MetadataCommand, aRunTakesItsScaleFromThemUnlessOneIsGiven) {
     EYRIE_NEED_SHARED_DATA("klv");
     const auto run = call({"run", shared("aphill_short.ts"), "--frames", "0:5", "--project", at("p.eyrie")});

@@ -77,15 +77,15 @@ TEST_F(IndexCacheTest, ARecordWhoseFramesAreNowhereIsNotBelieved) {
     index.packets.resize(2);
     index.shown = {0, 1};
     index.shown_ticks = {0, 1};
-    cache.save(video_, index);
+    cache.save(stateOf(video_), index);
     EXPECT_TRUE(cache.load(video_).has_value());
     for (const std::int32_t packet : {-1, 2, INT32_MAX}) {
         index.shown[1] = packet;
-        cache.save(video_, index);
+        cache.save(stateOf(video_), index);
         EXPECT_FALSE(cache.load(video_).has_value()) << packet;
     }
     index.shown = {0};
-    cache.save(video_, index);
+    cache.save(stateOf(video_), index);
     EXPECT_FALSE(cache.load(video_).has_value()) << "fewer frames than times";
 }
 

@@ -138,7 +138,7 @@ TEST(PartJoining, ASilhouetteHasNoGapBeyondTheLimit) {
     };
     EXPECT_TRUE(joinedBy(withGap(4))) << "1 m";
     EXPECT_FALSE(joinedBy(withGap(4.2)));
-    EXPECT_FALSE(joinedBy(silhouette(105, 134))) << "from the very middle of the first…";
+    EXPECT_FALSE(joinedBy(silhouette(105, 134))) << "from the very middle of the first …";
     EXPECT_TRUE(joinedBy(silhouette(103, 134)));
     EXPECT_FALSE(joinedBy(silhouette(90, 119))) << "… to that of the second";
     const SceneScale coarse{0.4, 25, true};  // 1 m is 2.5 px

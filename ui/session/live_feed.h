@@ -15,7 +15,8 @@
 namespace eyrie::ui {
 
 /// Passes what a run finds on to the eye: pictures and overlays at most `kFramesPerSecond`, the newest winning; the
-/// summary of every frame. Fed on the run's thread, read on another; the run never waits.
+/// summary of every frame. Fed on the run's thread, and on those that look for the scale before it; read on another;
+/// the run never waits.
 class LiveFeed : public ChainObserver {
  public:
     static constexpr int kFramesPerSecond = 25;

@@ -2,6 +2,7 @@
 
 #include "chain/scale_estimation.h"
 #include "cli/arguments/input.h"
+#include "cli/reports/run_report.h"
 #include "core/error.h"
 #include "scene/scene_source.h"
 
@@ -56,7 +57,10 @@ OpenedClips openSequences(const SweepSources& sources, const ChainOptions& optio
         clip.ground_truth = truth_source.file.string();
         const double gsd = sources.gsds.empty() ? 0 : sources.gsds[sources.gsds.size() == 1 ? 0 : i];
         const StatedScale stated = statedScale(*source, range.first, range.last, gsd, ScaleOrigin::given, stop);
-        clip.scale = chooseScale(*source, range, options, stated, stop).scale;
+        const ChosenScale chosen = chooseScale(*source, range, options, stated, stop);
+        clip.scale = chosen.scale;
+        for (const auto& remarks : {remarksOn(stated), remarksOn(chosen)})
+            for (const std::string& remark : remarks) opened.remarks.push_back(clip.sequence + ": " + remark);
         SweepInput input = openClip(clip, opener(clip.sequence, rate, remembered), range, std::move(truth),
                                     sources.evaluation.options, {.looked_for_slope = options.view.oblique});
         opened.add(std::move(clip), std::move(input));

@@ -187,8 +187,12 @@ void Batch::begin(std::size_t number) {
 void Batch::end(std::size_t number, const ChildEnd& how) {
     BatchRow& row = rows_[number];
     std::string fault = "ended without a finished run";
+    std::string remark;
     try {
-        if (takeFacts(row, options_.wishes)) fault.clear();
+        if (const auto run = takeFacts(row, options_.wishes)) {
+            fault.clear();
+            remark = run->message;
+        }
     } catch (const Error& error) {
         fault = error.what();
     }
@@ -196,7 +200,7 @@ void Batch::end(std::size_t number, const ChildEnd& how) {
         return close(number, BatchState::stopped, "");
     if (how.signal != 0) return close(number, BatchState::failed, signalText(how.signal));
     if (how.exit_code != exit_ok) return close(number, BatchState::failed, lastWords(how.errors));
-    close(number, fault.empty() ? BatchState::done : BatchState::failed, fault);
+    close(number, fault.empty() ? BatchState::done : BatchState::failed, fault.empty() ? remark : fault);
 }
 
 void Batch::close(std::size_t number, BatchState state, const std::string& message) {

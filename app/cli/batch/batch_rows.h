@@ -25,7 +25,7 @@ struct BatchRow {
     std::filesystem::path project;
     bool anew = false;  ///< a file that was worked on before has other contents now
     BatchState state = BatchState::waiting;
-    std::string message;  ///< why it failed or stopped
+    std::string message;  ///< why it failed or stopped; of a finished one what else its run says
     double seconds = 0;   ///< that it took in this batch
     int frames = 0;
     int unregistered = 0;  ///< of the frames

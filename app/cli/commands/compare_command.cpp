@@ -15,6 +15,7 @@
 #include "cli/interrupt.h"
 #include "cli/reports/comparison_report.h"
 #include "cli/reports/console_progress.h"
+#include "cli/reports/run_report.h"
 #include "core/error.h"
 #include "detection/sliding_window/model_location.h"
 #include "evaluation/comparison/published_figures.h"
@@ -189,9 +190,10 @@ int compare(const CompareArguments& arguments) {
     if (range.last < 0) range.last = video.frame_count - 1;
     const StatedScale stated = statedScale(*source, range.first, range.last, arguments.video.gsd_m_per_px.value_or(0),
                                            ScaleOrigin::given, interrupt.token());
-    const auto [scale, basis, estimate, why_not] =
-        chooseScale(*source, range, planned.front().variant.options, stated, interrupt.token());
-    if (!why_not.empty()) report.remarks.push_back("The scale is not estimated, which needs a classifier: " + why_not);
+    const ChosenScale chosen = chooseScale(*source, range, planned.front().variant.options, stated, interrupt.token());
+    for (const auto& remarks : {remarksOn(stated), remarksOn(chosen)})
+        report.remarks.insert(report.remarks.end(), remarks.begin(), remarks.end());
+    const SceneScale& scale = chosen.scale;
 
     std::vector<MethodVariant> methods;
     for (const Planned& method : planned) methods.push_back(method.variant);
@@ -199,7 +201,7 @@ int compare(const CompareArguments& arguments) {
     if (!arguments.project.empty()) {
         if (!keepEarlierState(arguments.project, interrupt.token())) return exit_stopped;
         RunRecord like = plannedRun(video, scale, range, arguments.preset.preset);
-        like.scale_basis = basis;
+        like.scale_basis = chosen.basis;
         recorders.emplace(arguments.project, planned, like);
     }
     ConsoleProgress console("frames");

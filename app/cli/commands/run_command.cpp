@@ -95,14 +95,8 @@ class ConsoleObserver : public ChainObserver {
     std::unique_ptr<VideoWriter> writer_;
 };
 
-/// Whether the metadata are believed, and why not.
-void tellScaleOf(const MetadataScale& scale) {
-    if (scale.usable())
-        std::fprintf(
-            stderr, "GSD %s m/px from the video's metadata (%s), known in %d of %d frames; --gsd overrides it\n",
-            fixedText(scale.gsd_m_per_px, 4).c_str(), nameOf(scale.source), scale.frames_known, scale.frames_asked);
-    else if (!scale.why_not.empty())
-        std::fprintf(stderr, "the video's metadata (KLV) are not used for the scale: %s\n", scale.why_not.c_str());
+void tell(const std::vector<std::string>& remarks) {
+    for (const std::string& remark : remarks) std::fprintf(stderr, "%s\n", remark.c_str());
 }
 
 /// The scale to work with; what is said of it before the run is said here.
@@ -111,7 +105,7 @@ ChosenScale scaleOf(FrameSource& source, FrameRange range, const ChainOptions& o
     const StatedScale stated = statedScale(source, range.first, range.last, arguments.video.gsd_m_per_px.value_or(0),
                                            ScaleOrigin::given, stop);
     if (arguments.quiet) return chooseScale(source, range, options, stated, stop);
-    tellScaleOf(stated.by_metadata);
+    tell(remarksOn(stated));
     if (stated.gsd_m_per_px <= 0 && source.info().gsd_m_per_px <= 0)
         std::fputs("GSD unknown: estimating the scale from the traffic\n", stderr);
     ChosenScale chosen;
@@ -122,9 +116,7 @@ ChosenScale scaleOf(FrameSource& source, FrameRange range, const ChainOptions& o
                          progress.seconds_left);
         });
     }
-    if (!chosen.why_not.empty())
-        std::fprintf(stderr, "The scale is not estimated, which needs a classifier: %s\n", chosen.why_not.c_str());
-    if (chosen.estimate) std::fprintf(stderr, "%s\n", estimateText(*chosen.estimate).c_str());
+    tell(remarksOn(chosen));
     return chosen;
 }
 

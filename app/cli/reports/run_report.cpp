@@ -5,6 +5,7 @@
 
 #include "cli/reports/console_progress.h"
 #include "io/atomic_file.h"
+#include "io/tables/number_text.h"
 
 namespace eyrie::cli {
 namespace {
@@ -86,6 +87,22 @@ std::string estimateText(const ScaleEstimate& estimate) {
     return formatted("Estimated %.2g m/px from %d vehicle%s: in nine of ten videos between %.2g and %.2g m/px",
                      estimate.gsd_m_per_px, estimate.vehicles, estimate.vehicles == 1 ? "" : "s",
                      estimate.gsd_m_per_px / estimate.uncertainty, estimate.gsd_m_per_px * estimate.uncertainty);
+}
+
+std::vector<std::string> remarksOn(const StatedScale& stated) {
+    const MetadataScale& scale = stated.by_metadata;
+    if (scale.usable())
+        return {"GSD " + fixedText(scale.gsd_m_per_px, 4) + " m/px from the video's metadata (" + nameOf(scale.source) +
+                "), known in " + std::to_string(scale.frames_known) + " of " + std::to_string(scale.frames_asked) +
+                " frames; --gsd overrides it"};
+    if (!scale.why_not.empty()) return {"The video's metadata (KLV) are not used for the scale: " + scale.why_not};
+    return {};
+}
+
+std::vector<std::string> remarksOn(const ChosenScale& chosen) {
+    if (!chosen.why_not.empty()) return {"The scale is not estimated, which needs a classifier: " + chosen.why_not};
+    if (chosen.estimate) return {estimateText(*chosen.estimate)};
+    return {};
 }
 
 std::string summaryText(const VideoInfo& video, const RunRecord& run, const RunSummary& summary, const RunFacts& facts,

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "chain/chain_run.h"
 #include "chain/recording/run_facts.h"
@@ -13,6 +14,11 @@ namespace eyrie::cli {
 
 /// What a look at the traffic says about the scale, and how sure it is.
 std::string estimateText(const ScaleEstimate& estimate);
+
+/// What is to be said of the metadata's scale before pictures are looked at; mostly nothing.
+std::vector<std::string> remarksOn(const StatedScale& stated);
+/// What is to be said of the scale that was chosen then; mostly nothing.
+std::vector<std::string> remarksOn(const ChosenScale& chosen);
 
 /// What a person wants to know when a run has ended, as text for the terminal.
 std::string summaryText(const VideoInfo& video, const RunRecord& run, const RunSummary& summary, const RunFacts& facts,

@@ -244,9 +244,10 @@ LiveStatus LiveRun::status() const {
 LiveRunResult LiveRun::run(ChainObserver* also, const Begun& begun) {
     const LiveRequest& request = parts_->request;
     LiveRunResult result;
-    const auto [scale, basis, estimate, why_not] = parts_->chooseScaleOf(also);
+    const ChosenScale chosen = parts_->chooseScaleOf(also);
+    const SceneScale& scale = chosen.scale;
     RunRecord planned = plannedRun(video(), scale, {}, request.preset);
-    planned.scale_basis = basis;
+    planned.scale_basis = chosen.basis;
     planned.name = request.name.empty() ? shownAddress(request.address) : request.name;
     RunRecorder recorder(request.project, planned, request.options, also, request.details);
     LiveRecorder live(recorder, request.project);

@@ -69,7 +69,7 @@ class FrameSource {
     virtual std::vector<PictureStamp> pictureStamps() const { return {}; }
     /// Whether there is more of the video now than when it was opened, since somebody still writes it. Its frames stay
     /// those of then; who wants the others opens it anew.
-    virtual bool hasGrown() const { return false; }
+    virtual bool hasGrown() const noexcept { return false; }
 };
 
 struct SourceOptions {

@@ -161,10 +161,10 @@ std::int64_t ImageSequence::timeOf(FrameIndex index) const {
     return std::llround(index * 1e6 / info_.frame_rate_hz);
 }
 
-bool ImageSequence::hasGrown() const {
+bool ImageSequence::hasGrown() const noexcept {
     try {
         return isFolder(info_.path) && imagesIn(info_.path).size() > files_.size();
-    } catch (const Error&) {
+    } catch (const std::exception&) {
         return false;  // it is gone
     }
 }

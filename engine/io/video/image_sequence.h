@@ -24,7 +24,7 @@ class ImageSequence : public FrameSource {
     const VideoInfo& info() const override { return info_; }
     Frame read(FrameIndex index, bool with_colour) override;
     std::int64_t timeOf(FrameIndex index) const override;
-    bool hasGrown() const override;
+    bool hasGrown() const noexcept override;
 
  private:
     void checkIndex(FrameIndex index) const;

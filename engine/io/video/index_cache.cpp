@@ -86,21 +86,7 @@ class Unpacker {
     std::size_t position_ = 0;
 };
 
-/// What tells one state of a file from another.
-struct IndexedFile {
-    std::string path;
-    std::uint64_t size = 0;
-    std::int64_t changed = 0;
-    bool operator==(const IndexedFile&) const = default;
-};
-
-IndexedFile indexedFile(const std::filesystem::path& video) {
-    const std::filesystem::path absolute = std::filesystem::absolute(video).lexically_normal();
-    return {absolute.string(), std::filesystem::file_size(absolute),
-            std::filesystem::last_write_time(absolute).time_since_epoch().count()};
-}
-
-std::string pack(const IndexedFile& file, const VideoIndex& index) {
+std::string pack(const FileState& file, const VideoIndex& index) {
     Packer packer;
     packer.number(kMagic);
     packer.text(file.path);
@@ -140,7 +126,7 @@ bool isSound(const VideoIndex& index) {
            index.shown_ticks.end();
 }
 
-std::optional<VideoIndex> unpack(const std::string& bytes, const IndexedFile& file) {
+std::optional<VideoIndex> unpack(const std::string& bytes, const FileState& file) {
     const std::size_t seal = sizeof(std::uint64_t);
     if (bytes.size() < 2 * seal) return std::nullopt;
     std::uint64_t sum = 0;
@@ -149,7 +135,7 @@ std::optional<VideoIndex> unpack(const std::string& bytes, const IndexedFile& fi
 
     Unpacker unpacker(bytes);
     if (unpacker.number<std::uint64_t>() != kMagic) return std::nullopt;
-    IndexedFile kept;
+    FileState kept;
     kept.path = unpacker.text();
     kept.size = unpacker.number<std::uint64_t>();
     kept.changed = unpacker.number<std::int64_t>();
@@ -200,23 +186,35 @@ std::filesystem::path IndexCache::recordOf(const std::filesystem::path& video) c
     return folder_ / file.str();
 }
 
+FileState stateOf(const std::filesystem::path& file) {
+    FileState state{std::filesystem::absolute(file).lexically_normal().string()};
+    std::error_code no_size, no_time;
+    const auto size = std::filesystem::file_size(state.path, no_size);
+    const auto changed = std::filesystem::last_write_time(state.path, no_time);
+    if (!no_size && !no_time) {
+        state.size = size;
+        state.changed = changed.time_since_epoch().count();
+    }
+    return state;
+}
+
 std::optional<VideoIndex> IndexCache::load(const std::filesystem::path& video) const {
     if (folder_.empty()) return std::nullopt;
     try {
         std::ifstream file(recordOf(video), std::ios::binary);
         if (!file) return std::nullopt;
         const std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-        return unpack(bytes, indexedFile(video));
+        return unpack(bytes, stateOf(video));
     } catch (const std::exception&) {
         return std::nullopt;  // whatever is wrong with the record, indexing again puts it right
     }
 }
 
-void IndexCache::save(const std::filesystem::path& video, const VideoIndex& index) const {
+void IndexCache::save(const FileState& video, const VideoIndex& index) const {
     if (folder_.empty()) return;
     try {
         std::filesystem::create_directories(folder_);
-        writeFileAtomically(recordOf(video), pack(indexedFile(video), index));
+        writeFileAtomically(recordOf(video.path), pack(video, index));
     } catch (const std::exception&) {
         // Without a cache the video is indexed again next time.
     }

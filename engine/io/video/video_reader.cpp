@@ -65,13 +65,14 @@ FrameTiming timingOf(const std::vector<std::int64_t>& ticks, double tick_s) {
 VideoReader::VideoReader(const std::filesystem::path& path, const SourceOptions& options, const IndexProgress& progress,
                          std::stop_token stop) {
     info_.path = std::filesystem::absolute(path).lexically_normal();
-    bytes_ = std::filesystem::file_size(info_.path);
+    const FileState file = stateOf(info_.path);
+    bytes_ = file.size;
     const IndexCache cache(options.index_folder);
     if (auto known = cache.load(info_.path)) {
         index_ = std::move(*known);
     } else {
         decoder_ = buildVideoIndex(info_.path, index_, progress, std::move(stop));
-        cache.save(info_.path, index_);
+        cache.save(file, index_);
     }
     frame_of_packet_ = index_.framesOfPackets();
     for (std::size_t number = 0; number < index_.packets.size(); ++number)
@@ -80,7 +81,7 @@ VideoReader::VideoReader(const std::filesystem::path& path, const SourceOptions&
     describe(options);
 }
 
-bool VideoReader::hasGrown() const {
+bool VideoReader::hasGrown() const noexcept {
     std::error_code gone;
     const std::uintmax_t bytes = std::filesystem::file_size(info_.path, gone);
     return !gone && bytes > bytes_;

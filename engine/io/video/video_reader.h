@@ -23,7 +23,7 @@ class VideoReader : public FrameSource {
     Frame read(FrameIndex index, bool with_colour) override;
     std::int64_t timeOf(FrameIndex index) const override;
     std::vector<PictureStamp> pictureStamps() const override;
-    bool hasGrown() const override;
+    bool hasGrown() const noexcept override;
 
  private:
     void describe(const SourceOptions& options);
@@ -33,7 +33,7 @@ class VideoReader : public FrameSource {
     void checkIndex(FrameIndex index) const;
 
     VideoInfo info_;
-    std::uintmax_t bytes_ = 0;  ///< of the file before it was indexed
+    std::uint64_t bytes_ = 0;  ///< of the file before it was indexed
     VideoIndex index_;
     std::int64_t stamp_tick_numerator_ = 1;  ///< of the container, whatever rate the user gave
     std::int64_t stamp_tick_denominator_ = 1;

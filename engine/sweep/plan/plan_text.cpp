@@ -139,7 +139,8 @@ std::string differenceOf(const SweepPlan& a, const SweepPlan& b) {
         here.ground_truth = there.ground_truth;
         here.run = there.run;
         if (jsonOf(here) != jsonOf(there))
-            return "sequence " + std::to_string(i + 1) + " (" + a.clips[i].sequence + ") or its ground truth differs";
+            return "sequence " + std::to_string(i + 1) + " (" + a.clips[i].sequence +
+                   "), its scale or its ground truth differs";
     }
     if (a.overlaps != b.overlaps || a.vehicles_only != b.vehicles_only || a.one_class != b.one_class ||
         a.border != b.border)

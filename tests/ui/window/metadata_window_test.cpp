@@ -1,5 +1,6 @@
 #include <QComboBox>
 #include <QLabel>
+#include <QLineEdit>
 #include <QStatusBar>
 #include <QTest>
 
@@ -138,6 +139,8 @@ class MetadataWindowTest : public QObject {
         QVERIFY(window->session().shownRun() != nullptr);
         QCOMPARE(window->session().shownRun()->scale_basis.origin, ScaleOrigin::metadata);
         QVERIFY(qAbs(window->session().shownRun()->scale.gsd_m_per_px - test::kFlownPixel_m) < 0.005);
+        const auto* gsd = window->findChild<QLineEdit*>(QStringLiteral("gsd"));
+        QVERIFY2(gsd->placeholderText().endsWith(tr("from the metadata")), qPrintable(gsd->placeholderText()));
         const auto told = [&] { return window->earth().earth().origin(); };
         QTRY_VERIFY_WITH_TIMEOUT(told().contains(QStringLiteral("steadied by the registration")), kPatience_ms);
         const auto place = window->earth().earth().placeOf(25, {100, 90});

@@ -15,7 +15,7 @@ namespace eyrie::ui {
 namespace {
 constexpr int kChipPeriod_ms = 120;
 constexpr int kLongestNote = 500;
-constexpr int kSpeedLines = 9;  ///< of text that the sketch of the speed is high at most
+constexpr int kSpeedLines = 9;  ///< greatest height of the sketch of the speed, in lines of text
 }  // namespace
 
 EventCard::EventCard(QWidget* parent) : QWidget(parent), loop_(kChipPeriod_ms, [this] { nextChip(); }) {

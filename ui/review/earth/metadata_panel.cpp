@@ -56,9 +56,9 @@ MetadataPanel::MetadataPanel(ProjectSession& session, VideoEarth& earth, Metadat
     showMetadata();
 }
 
-int MetadataPanel::longestShown(int column) const {
-    constexpr int kLongestName = 22;  // beside it there is room for what it says
-    return column == MetadataModel::name_column ? kLongestName : TablePanel::longestShown(column);
+std::optional<int> MetadataPanel::mostCharacters(int column) const {
+    constexpr int kOfName = 22;  // beside it there is room for what it says
+    return column == MetadataModel::name_column ? std::optional(kOfName) : std::nullopt;
 }
 
 void MetadataPanel::setLookedAt(bool looked_at) {

@@ -31,7 +31,7 @@ class MetadataPanel : public TablePanel {
     QString summary() const;
 
  protected:
-    int longestShown(int column) const override;
+    std::optional<int> mostCharacters(int column) const override;
 
  private:
     MetadataPanel(ProjectSession& session, VideoEarth& earth, MetadataModel* model, QWidget* parent);

@@ -83,12 +83,12 @@ void EventsPanel::buildButtons() {
     buttons->addWidget(buttonOf(actions_.unsure, tr("Unsure")));
     buttons->addWidget(buttonOf(actions_.star, QStringLiteral("★")));
     buttons->addWidget(buttonOf(actions_.undo_verdict, tr("Undo")));
-    const auto addSwitch = [](QLayout& row, const QString& text, const QString& tip) {
+    const auto addSwitch = [buttons](const QString& text, const QString& tip) {
         auto* button = new QToolButton;
         button->setText(text);
         button->setToolTip(tip);
         button->setCheckable(true);
-        row.addWidget(button);
+        buttons->addWidget(button);
         return button;
     };
     auto* report = new QToolButton;
@@ -101,8 +101,8 @@ void EventsPanel::buildButtons() {
     connect(choices->addAction(tr("All events…")), &QAction::triggered, this, [this] { emit reportWanted(true); });
     report->setMenu(choices);
     buttons->addWidget(report);
-    limits_button_ = addSwitch(*buttons, tr("Limits"), tr("What counts as an event"));
-    zones_button_ = addSwitch(*buttons, tr("Zones"), tr("Areas and lines that are watched: draw, name, delete them"));
+    limits_button_ = addSwitch(tr("Limits"), tr("What counts as an event"));
+    zones_button_ = addSwitch(tr("Zones"), tr("Areas and lines that are watched: draw, name, delete them"));
     bindSwitches(this, {{limits_button_, [this](bool on) { showThresholds(on); }},
                         {zones_button_, [this](bool on) { showZones(on); }}});
     layout()->addWidget(line);

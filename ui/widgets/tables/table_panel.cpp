@@ -186,8 +186,10 @@ int TablePanel::neededWidth(int column) const {
     const QString title = proxy_->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
     const int arrow = header->sortIndicatorSection() == column ? kArrow : 0;
     const int own = header->fontMetrics().horizontalAdvance(title) + kMargin + arrow;
-    const double longest = static_cast<double>(longestShown(column)) * header->fontMetrics().averageCharWidth();
-    return std::max(own, static_cast<int>(std::min<double>(longest, view->sizeHintForColumn(column) + 1)));
+    int needed = view->sizeHintForColumn(column) + 1;
+    if (const auto most = mostCharacters(column))
+        needed = std::min(needed, *most * view->fontMetrics().averageCharWidth());
+    return std::max(own, needed);
 }
 
 void TablePanel::fitColumns() {

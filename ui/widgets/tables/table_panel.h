@@ -2,7 +2,6 @@
 
 #include <QList>
 #include <QWidget>
-#include <climits>
 #include <optional>
 
 #include "widgets/delayed_call.h"
@@ -52,8 +51,8 @@ class TablePanel : public QWidget {
     virtual void rowClicked(int /*id*/, int /*column*/) {}
     /// The user double-clicked a row or pressed Enter on it.
     virtual void rowDoubleClicked(int /*id*/) {}
-    /// How many characters wide a column is made at most, of the model; what is longer is in its tooltip.
-    virtual int longestShown(int /*column*/) const { return INT_MAX; }
+    /// How many characters of a column of the model are shown at most; none: all. What is longer is in its tooltip.
+    virtual std::optional<int> mostCharacters(int /*column*/) const { return std::nullopt; }
     /// Adds entries to the menu of a row.
     virtual void fillMenu(QMenu&, int /*id*/) {}
     /// What is said, and what the button beside it does, while there are rows but none is shown.

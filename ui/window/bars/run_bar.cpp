@@ -167,11 +167,12 @@ void RunBar::showOrigin() {
     if (run != nullptr && run->scale_basis.origin == ScaleOrigin::estimated)
         known = tr("unknown; estimated %1").arg(locale().toString(run->scale.gsd_m_per_px, 'g', 3));
     else if (run != nullptr && run->scale_basis.origin == ScaleOrigin::metadata)
-        known = tr("%1 by the metadata").arg(locale().toString(run->scale.gsd_m_per_px, 'g', 3));
+        known = tr("%1 from the metadata").arg(locale().toString(run->scale.gsd_m_per_px, 'g', 3));
     gsd_->setPlaceholderText(known);
     QString tip =
-        tr("Ground sampling distance: metres on the ground per pixel. Without it the run looks at the traffic for a "
-           "scale to work with, and results are shown in pixels instead of metres and km/h.");
+        tr("Ground sampling distance: metres on the ground per pixel. Without it the run takes it from the "
+           "video's metadata, or else looks at the traffic for a scale to work with; then results are shown in pixels "
+           "instead of metres and km/h.");
     if (run != nullptr) tip += QStringLiteral("\n\n") + tr("The run shown: %1.").arg(scaleText(*run));
     gsd_->setToolTip(tip);
 }

@@ -83,8 +83,7 @@ void StatusFields::showPreparing() {
         showProgress();
         return;
     }
-    work_->setText(session_.settings().gsd_m_per_px > 0 ? tr("starting the run…")
-                                                        : tr("estimating the scale from the traffic…"));
+    work_->setText(session_.settings().gsd_m_per_px > 0 ? tr("starting the run…") : tr("looking for the scale…"));
     bar_->setRange(0, 0);
     showProgress();
 }

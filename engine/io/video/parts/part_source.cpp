@@ -203,7 +203,7 @@ std::int64_t PartSource::timeOf(FrameIndex index) const {
     return times_us_[static_cast<std::size_t>(index)];
 }
 
-bool PartSource::hasGrown() const {
+bool PartSource::hasGrown() const noexcept {
     return std::any_of(listed_.begin(), listed_.end(), [](const ListedPart& part) {
         std::error_code gone;
         const std::uintmax_t bytes = fs::file_size(part.file, gone);

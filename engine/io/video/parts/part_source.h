@@ -26,7 +26,7 @@ class PartSource : public FrameSource {
     Frame read(FrameIndex index, bool with_colour) override;
     std::int64_t timeOf(FrameIndex index) const override;
     std::vector<PictureStamp> pictureStamps() const override;
-    bool hasGrown() const override;
+    bool hasGrown() const noexcept override;
 
     /// The parts with all that is known of them now.
     const std::vector<ListedPart>& listed() const { return listed_; }
