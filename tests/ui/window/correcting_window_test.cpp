@@ -250,6 +250,8 @@ class CorrectingWindowTest : public QObject {
         QCOMPARE(menuOf(window->review().tracks()).last(5),
                  QList<QAction*>({commands.follow_object, commands.like_track, commands.join_tracks,
                                   commands.split_track, commands.remove_correction}));
+        window->activateWindow();
+        QVERIFY(QTest::qWaitForWindowActive(window.get()));
         QTest::keyClick(&window->canvas(), Qt::Key_Y, Qt::ShiftModifier);
         QVERIFY(tells(*window, QStringLiteral("between its first and its last frame")));
         QVERIFY(waitForTracks(*window, all));
