@@ -20,7 +20,7 @@ struct Reader {
         index.shown = {0, 1, 2};
         index.shown_ticks = {0, 1, 2};
         index.codec = "h264";
-        cache.save(video, index);
+        cache.save(eyrie::stateOf(video), index);
         record = cache.recordOf(video);
         if (!std::filesystem::exists(record)) std::abort();
     }
