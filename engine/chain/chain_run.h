@@ -35,8 +35,7 @@ struct ChainState {
 };
 
 /// Receives the results of a run, frame after frame, on the run's own thread; the progress of the look at the scale
-/// before it from any thread, one at a time. Must not throw anything but Error; an
-/// Error ends the run as failed.
+/// before it from any thread, one at a time. Must not throw anything but Error, which ends the run as failed.
 class ChainObserver {
  public:
     virtual ~ChainObserver() = default;

@@ -131,6 +131,25 @@ TEST_F(Batches, everyFileGetsAProjectAndBadOnesAreListed) {
     EXPECT_EQ(ended, 5);
 }
 
+TEST_F(Batches, aListOfPartsIsOneVideoAndItsPartsAreNone) {
+    put("in/one.mp4");
+    put("in/rec/a.mp4");
+    put("in/rec/b.mp4");
+    write("in/rec/whole.parts", "file\na.mp4\nb.mp4\n");
+    write("in/rec/broken.parts", "nothing,of,the,kind\n");
+    const auto result = batch();
+    EXPECT_EQ(result.exit_code, 3) << result.errors;
+    EXPECT_THAT(inState("done"), ElementsAre("one.mp4", "rec/whole.parts"));
+    EXPECT_THAT(inState("failed"), ElementsAre("rec/broken.parts"));
+    EXPECT_EQ(runsOf("out/rec/whole.eyrie").at(0).frames_done, 2 * kFrames);
+    EXPECT_FALSE(fs::exists(at("out/rec/a.eyrie")));
+
+    write("in/rec/whole.parts", "file\nb.mp4\n");
+    const auto again = batch();
+    EXPECT_THAT(inState("done"), ElementsAre("rec/a.mp4", "rec/whole.parts")) << again.output;
+    EXPECT_EQ(runsOf("out/rec/whole.eyrie").back().frames_done, kFrames);
+}
+
 TEST_F(Batches, startedAgainSkipsWhatIsDoneAndDoesWhatCame) {
     put("in/a.mp4");
     ASSERT_EQ(batch().exit_code, 0);

@@ -59,8 +59,8 @@ OpenedClips openSequences(const SweepSources& sources, const ChainOptions& optio
         const StatedScale stated = statedScale(*source, range.first, range.last, gsd, ScaleOrigin::given, stop);
         const ChosenScale chosen = chooseScale(*source, range, options, stated, stop);
         clip.scale = chosen.scale;
-        for (const auto& remarks : {remarksOn(stated), remarksOn(chosen)})
-            for (const std::string& remark : remarks) opened.remarks.push_back(clip.sequence + ": " + remark);
+        for (const std::string& remark : remarksOn(stated, chosen))
+            opened.remarks.push_back(clip.sequence + ": " + remark);
         SweepInput input = openClip(clip, opener(clip.sequence, rate, remembered), range, std::move(truth),
                                     sources.evaluation.options, {.looked_for_slope = options.view.oblique});
         opened.add(std::move(clip), std::move(input));

@@ -10,6 +10,7 @@
 #include "io/file_kind.h"
 #include "io/folder.h"
 #include "io/video/image_sequence.h"
+#include "io/video/parts/part_list.h"
 
 namespace eyrie::cli {
 namespace {
@@ -76,6 +77,9 @@ class Search {
             if (entry.filename().string().starts_with('.')) continue;
             if (isFolder(entry)) {
                 look(entry, called);
+            } else if (isFile(entry) && hasPartListName(entry)) {
+                takeFile(entry, called);
+                has_video = true;
             } else if (isFile(entry) && ImageSequence::isImageFile(entry)) {
                 images.push_back(entry);
             } else if (isFile(entry)) {
@@ -85,9 +89,31 @@ class Search {
         if (!images.empty() && !has_video) found.push_back(ofImages(folder, name, images));
     }
 
+    /// One that was named, whatever it is.
+    void takeFile(const fs::path& path, const fs::path& name) {
+        BatchInput input = ofFile(path, name);
+        if (input.fault.empty() && hasPartListName(path)) addParts(input);
+        found.push_back(std::move(input));
+    }
+
+    /// Whether a list that was found shows it already.
+    bool isPart(const fs::path& file) const { return parts_.contains(file); }
+
     std::vector<BatchInput> found;
 
  private:
+    void addParts(BatchInput& list) {
+        try {
+            for (const ListedPart& part : readPartList(list.path)) {
+                list.bytes += sizeOf(part.file);
+                list.changed_ns = std::max(list.changed_ns, lastWrite(part.file));
+                parts_.insert(part.file.lexically_normal());
+            }
+        } catch (const Error& error) {
+            list.fault = error.what();
+        }
+    }
+
     bool takeVideo(const BatchInput& file) {
         const auto [known, is_new] = files_.try_emplace(file.path, file, false);
         auto& [former, is_video] = known->second;
@@ -101,6 +127,7 @@ class Search {
 
     KnownFiles& files_;
     std::set<fs::path> seen_;
+    std::set<fs::path> parts_;
 };
 
 fs::path lastName(const fs::path& place) {
@@ -122,7 +149,7 @@ std::vector<BatchInput> findInputs(const std::vector<std::string>& places, Known
             // One folder's own name says nothing; of several it keeps apart what they hold.
             search.look(place, places.size() > 1 ? lastName(place) : fs::path());
         } else {
-            search.found.push_back(ofFile(place, lastName(place)));
+            search.takeFile(place, lastName(place));
         }
     }
     for (BatchInput& input : search.found) {
@@ -131,7 +158,9 @@ std::vector<BatchInput> findInputs(const std::vector<std::string>& places, Known
     std::sort(search.found.begin(), search.found.end(),
               [](const BatchInput& a, const BatchInput& b) { return a.name < b.name; });
     std::set<fs::path> known;
-    std::erase_if(search.found, [&](const BatchInput& input) { return !known.insert(input.path).second; });
+    std::erase_if(search.found, [&](const BatchInput& input) {
+        return search.isPart(input.path) || !known.insert(input.path).second;
+    });
     return search.found;
 }
 

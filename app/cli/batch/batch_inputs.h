@@ -9,12 +9,12 @@
 
 namespace eyrie::cli {
 
-/// A video or a folder of images that a batch works on.
+/// A video, a list of parts or a folder of images that a batch works on.
 struct BatchInput {
     std::filesystem::path path;   ///< absolute
     std::filesystem::path name;   ///< as it is told and where its project goes, relative: "monday/a.mp4"
-    std::uintmax_t bytes = 0;     ///< of the file, or of all images
-    std::int64_t changed_ns = 0;  ///< when it, or the newest image, was last written, since 1970 (UTC)
+    std::uintmax_t bytes = 0;     ///< of the file, of all images, or of the list and all its parts
+    std::int64_t changed_ns = 0;  ///< when it, or the newest image or part, was last written, since 1970 (UTC)
     std::string fault;            ///< not empty: it cannot be read, and why
 
     bool operator==(const BatchInput&) const = default;
@@ -24,8 +24,9 @@ struct BatchInput {
 using KnownFiles = std::map<std::filesystem::path, std::pair<BatchInput, bool>>;  ///< as they were; whether videos
 
 /// All videos in the files and folders that were named, and in the folders within, by name. A folder that holds images
-/// and no video is one input. Hidden files, and folders reached a second time through links, are left out; what cannot
-/// be looked into is an input with a fault. Files that were named themselves are taken for what they are said to be.
+/// and no video is one input. A list of parts is one, and none of its parts is one by itself. Hidden files, and folders
+/// reached a second time through links, are left out; what cannot be looked into is an input with a fault. Files that
+/// were named themselves are taken for what they are said to be.
 std::vector<BatchInput> findInputs(const std::vector<std::string>& places);
 std::vector<BatchInput> findInputs(const std::vector<std::string>& places, KnownFiles& files);
 

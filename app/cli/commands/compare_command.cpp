@@ -191,8 +191,7 @@ int compare(const CompareArguments& arguments) {
     const StatedScale stated = statedScale(*source, range.first, range.last, arguments.video.gsd_m_per_px.value_or(0),
                                            ScaleOrigin::given, interrupt.token());
     const ChosenScale chosen = chooseScale(*source, range, planned.front().variant.options, stated, interrupt.token());
-    for (const auto& remarks : {remarksOn(stated), remarksOn(chosen)})
-        report.remarks.insert(report.remarks.end(), remarks.begin(), remarks.end());
+    for (std::string& remark : remarksOn(stated, chosen)) report.remarks.push_back(std::move(remark));
     const SceneScale& scale = chosen.scale;
 
     std::vector<MethodVariant> methods;

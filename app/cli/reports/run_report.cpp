@@ -105,6 +105,12 @@ std::vector<std::string> remarksOn(const ChosenScale& chosen) {
     return {};
 }
 
+std::vector<std::string> remarksOn(const StatedScale& stated, const ChosenScale& chosen) {
+    std::vector<std::string> remarks = remarksOn(stated);
+    for (std::string& remark : remarksOn(chosen)) remarks.push_back(std::move(remark));
+    return remarks;
+}
+
 std::string summaryText(const VideoInfo& video, const RunRecord& run, const RunSummary& summary, const RunFacts& facts,
                         const std::vector<TrackSummary>& tracks, const std::filesystem::path& project) {
     std::string text = formatted("%s: %dx%d, %d frames at %.3g Hz%s, %s\n", video.path.filename().c_str(),

@@ -19,6 +19,8 @@ std::string estimateText(const ScaleEstimate& estimate);
 std::vector<std::string> remarksOn(const StatedScale& stated);
 /// What is to be said of the scale that was chosen then; mostly nothing.
 std::vector<std::string> remarksOn(const ChosenScale& chosen);
+/// Both, in this order.
+std::vector<std::string> remarksOn(const StatedScale& stated, const ChosenScale& chosen);
 
 /// What a person wants to know when a run has ended, as text for the terminal.
 std::string summaryText(const VideoInfo& video, const RunRecord& run, const RunSummary& summary, const RunFacts& facts,

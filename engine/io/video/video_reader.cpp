@@ -82,9 +82,7 @@ VideoReader::VideoReader(const std::filesystem::path& path, const SourceOptions&
 }
 
 bool VideoReader::hasGrown() const noexcept {
-    std::error_code gone;
-    const std::uintmax_t bytes = std::filesystem::file_size(info_.path, gone);
-    return !gone && bytes > bytes_;
+    return stateOf(info_.path).size > bytes_;
 }
 
 void VideoReader::describe(const SourceOptions& options) {

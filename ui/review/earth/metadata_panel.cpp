@@ -57,7 +57,7 @@ MetadataPanel::MetadataPanel(ProjectSession& session, VideoEarth& earth, Metadat
 }
 
 std::optional<int> MetadataPanel::mostCharacters(int column) const {
-    constexpr int kOfName = 22;  // beside it there is room for what it says
+    constexpr int kOfName = 17;  // beside it there is room for what it says
     return column == MetadataModel::name_column ? std::optional(kOfName) : std::nullopt;
 }
 

@@ -13,6 +13,7 @@
 #include "io/tables/number_text.h"
 #include "io/tables/size_text.h"
 #include "io/video/image_sequence.h"
+#include "io/video/index_cache.h"
 #include "io/video/video_reader.h"
 
 namespace eyrie {
@@ -204,11 +205,8 @@ std::int64_t PartSource::timeOf(FrameIndex index) const {
 }
 
 bool PartSource::hasGrown() const noexcept {
-    return std::any_of(listed_.begin(), listed_.end(), [](const ListedPart& part) {
-        std::error_code gone;
-        const std::uintmax_t bytes = fs::file_size(part.file, gone);
-        return !gone && bytes > part.bytes;
-    });
+    return std::any_of(listed_.begin(), listed_.end(),
+                       [](const ListedPart& part) { return stateOf(part.file).size > part.bytes; });
 }
 
 std::vector<PictureStamp> PartSource::pictureStamps() const {
