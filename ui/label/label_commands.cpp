@@ -13,6 +13,7 @@
 #include "label/computing/label_proposals.h"
 #include "label/computing/label_tracking.h"
 #include "label/editor/label_editor.h"
+#include "label/files/label_export.h"
 #include "label/files/label_files.h"
 #include "label/identity_commands.h"
 #include "label/label_actions.h"
@@ -318,7 +319,7 @@ void LabelCommands::bindFiles() {
                            {actions.export_labels,
                             [this] {
                                 if (!parts_.labels.isOpen()) return;
-                                LabelExportDialog dialog(parts_.labels, &parts_.around.window);
+                                ExportDialog dialog(labelExport(parts_.labels), &parts_.around.window);
                                 dialog.exec();
                             }},
                        });

@@ -53,6 +53,7 @@
 #include "window/docks/event_report.h"
 #include "window/docks/review_docks.h"
 #include "window/docks/tuning.h"
+#include "window/handover/run_handover.h"
 #include "window/live/live_strip.h"
 #include "window/live/live_watching.h"
 #include "window/opened_files.h"
@@ -103,6 +104,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     });
     buildWatching();
     event_report_ = new EventReport({session_, *events_, *messages_, *this});
+    new RunHandover({session_, *events_, *actions_, *messages_, *this});
     tuning_ = new Tuning(
         {session_, *canvas_, *docks_, review_->parameterForm(), *actions_, review_->parameters(), overlays_, *this});
     buildEvaluation();

@@ -32,6 +32,10 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
     save_copy = add(tr("Save a &copy…"), {"document-save", {}, QT_TR_NOOP("Save a copy, and go on working here")});
     restore_state = add(tr("Restore an &earlier state…"),
                         {"document-revert", {}, QT_TR_NOOP("What the project held on earlier days")});
+    export_tracks = add(tr("Export &tracks…"),
+                        {"document-export",
+                         {QKeySequence(tr("Ctrl+Shift+X"))},
+                         QT_TR_NOOP("Write the tracks of this run for other programs, or into a copy of the video")});
     report = add(tr("Evaluation &report…"), {"document-export",
                                              {QKeySequence(tr("Ctrl+Shift+R"))},
                                              QT_TR_NOOP("Write the evaluation as one HTML or PDF file")});
@@ -237,6 +241,12 @@ void WindowActions::addEvents() {
              {QKeySequence(Qt::Key_Z), QKeySequence(tr("Ctrl+Z"))},
              QT_TR_NOOP("Undo the last verdict, star, note, bookmark, correction of a track or change of a zone")});
     redo_verdict = add(tr("Re&do"), {"edit-redo", {QKeySequence(tr("Ctrl+Shift+Z")), QKeySequence(tr("Ctrl+Y"))}});
+    clip_event = add(tr("&Clip of the event…"),
+                     {"document-export",
+                      {QKeySequence(tr("Ctrl+Shift+C"))},
+                      QT_TR_NOOP("Cut the selected event out of the video, with or without the tracks")});
+    clip_track = add(tr("Clip of the trac&k…"),
+                     {nullptr, {}, QT_TR_NOOP("Cut the life of the selected track out of the video")});
     bookmark = add(tr("&Bookmark this frame…"), {"bookmark-new",
                                                  {QKeySequence(tr("Ctrl+F9"))},
                                                  QT_TR_NOOP("Mark the frame with a note, or change the note it has")});

@@ -25,7 +25,8 @@ class WindowActions : public QObject {
     /// In the order of the menus.
     const QList<ActionSection>& sections() const { return sections_; }
 
-    QAction *open_video, *open_folder, *watch_live, *open_project, *save_as, *save_copy, *restore_state, *demo, *quit;
+    QAction *open_video, *open_folder, *watch_live, *open_project, *save_as, *save_copy, *restore_state, *export_tracks,
+        *demo, *quit;
     QAction *run, *stop, *continue_run, *follow, *restore_run;
     QAction *play, *step_back, *step_on, *jump_back, *jump_on, *first, *last, *go_to_frame, *shuttle_back,
         *shuttle_stop, *shuttle_on, *slower, *faster, *loop, *only_moving;
@@ -34,7 +35,8 @@ class WindowActions : public QObject {
     QAction *next_error, *previous_error, *why_error, *wrong_truth, *report;
     QAction *next_event, *previous_event, *next_open_event, *relevant, *not_relevant, *unsure, *take_back, *star, *note,
         *like_track, *add_track, *join_tracks, *split_track, *remove_correction, *undo_verdict, *redo_verdict,
-        *draw_zone, *draw_line, *control_points, *bookmark, *next_bookmark, *previous_bookmark, *remove_bookmark;
+        *clip_event, *clip_track, *draw_zone, *draw_line, *control_points, *bookmark, *next_bookmark,
+        *previous_bookmark, *remove_bookmark;
     QAction *why, *live_preview, *compare, *train;
     std::array<QAction*, kWorkspaceCount> workspace;
     std::map<OverlayKind, QAction*> overlay;

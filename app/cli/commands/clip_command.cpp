@@ -1,11 +1,9 @@
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
 
-#include "cli/annotator.h"
 #include "cli/arguments/earlier_state.h"
 #include "cli/arguments/event_arguments.h"
 #include "cli/arguments/input.h"
@@ -16,9 +14,7 @@
 #include "cli/project_runs.h"
 #include "cli/reports/console_progress.h"
 #include "core/error.h"
-#include "correction/corrected_run.h"
-#include "io/video/frame_colour.h"
-#include "io/video/video_writer.h"
+#include "report/clip/run_clip.h"
 
 namespace eyrie::cli {
 namespace {
@@ -47,15 +43,9 @@ FrameRange framesOfEvent(const ClipArguments& arguments, const ReviewedRun& revi
     }
     const Event& event = reviewed.events[static_cast<std::size_t>(number - 1)];
     const Footage& footage = reviewed.tracks.footage;
-    // By the frames' own times, which need not be even.
-    const double begin = reviewed.tracks.secondsOf(event.first_frame) - arguments.around_s;
-    const double end = reviewed.tracks.secondsOf(event.last_frame) + arguments.around_s;
-    FrameRange range{event.first_frame, event.last_frame};
-    constexpr double kSlack_s = 1e-6;
-    while (range.first > footage.first_frame && reviewed.tracks.secondsOf(range.first - 1) >= begin - kSlack_s)
-        --range.first;
-    while (range.last < footage.last_frame && reviewed.tracks.secondsOf(range.last + 1) <= end + kSlack_s) ++range.last;
-    return range;
+    return framesAround({event.first_frame, event.last_frame}, arguments.around_s,
+                        {footage.first_frame, footage.last_frame},
+                        [&](FrameIndex frame) { return reviewed.tracks.secondsOf(frame); });
 }
 
 FrameRange framesAsked(const ClipArguments& arguments, int frame_count) {
@@ -66,57 +56,6 @@ FrameRange framesAsked(const ClipArguments& arguments, int frame_count) {
     if (range.first < frame_count && range.last < frame_count) return range;
     throw Error(ErrorKind::parameter,
                 "--frames " + arguments.frames + ": the video has frames 0 to " + std::to_string(frame_count - 1));
-}
-
-/// Answers whether all was written; stopped, there is no file.
-bool writeClip(const ClipArguments& arguments, FrameRange range, ProjectFile& project, const RunRecord& run,
-               FrameSource& source, const std::stop_token& stop) {
-    const RunStore store(project);
-    const CorrectedTracks corrected =
-        arguments.overlay && !arguments.events.uncorrected ? readCorrectedTracks(project, run) : CorrectedTracks();
-    const auto resultOf = [&](FrameIndex frame) {
-        auto result = store.frameResult(run.id, frame);
-        if (result) result->tracks = corrected.in(frame, std::move(result->tracks));
-        return result;
-    };
-    const int zoom = arguments.overlay ? annotationZoom(source.info().size) : 1;
-    VideoWriterOptions options;
-    options.frame_rate_hz = source.info().frame_rate_hz;
-    Annotator annotator(Annotator::Parts::tracks);
-    if (arguments.overlay) {
-        // Trails that began before the clip.
-        for (FrameIndex frame = std::max(0, range.first - Annotator::kTrailFrames); frame < range.first; ++frame)
-            if (const auto result = resultOf(frame)) annotator.follow(*result);
-    }
-    ConsoleProgress progress("% written");
-    VideoWriter writer(arguments.out, source.info().size * zoom, options);
-    const std::int64_t begin = source.timeOf(range.first);
-    const auto writeAll = [&] {
-        for (FrameIndex frame = range.first; frame <= range.last; ++frame) {
-            if (stop.stop_requested()) return false;
-            const Frame picture = source.read(frame, true);
-            const auto result = arguments.overlay ? resultOf(frame) : std::nullopt;
-            const FrameResult none;
-            const cv::Mat image =
-                arguments.overlay ? annotator.draw(picture, result ? *result : none) : colourOf(picture);
-            // Frames keep their distances in time; where the rate is even the writer counts them itself, to the digit.
-            writer.write(image, source.info().variable_frame_rate ? source.timeOf(frame) - begin : -1);
-            if (!arguments.quiet)
-                progress.showShare(static_cast<double>(frame - range.first + 1) / (range.last - range.first + 1));
-        }
-        return true;
-    };
-    try {
-        if (writeAll()) {
-            writer.finish();
-            return true;
-        }
-    } catch (const Error&) {
-        writer.abandon();  // half a clip is no evidence
-        throw;
-    }
-    writer.abandon();
-    return false;
 }
 
 /// Answers the exit code.
@@ -142,13 +81,13 @@ int makeClip(const ClipArguments& arguments) {
     }
     const auto source = openInput(run.sequence.path, 0, interrupt.token(), run.sequence.frame_rate_hz);
     if (!range) range = framesAsked(arguments, source->info().frame_count);
-    // The video may have become shorter since the run.
-    range->last = std::min(range->last, source->info().frame_count - 1);
-    if (range->first > range->last) {
-        throw Error(ErrorKind::input, run.sequence.path + ": is shorter than when the run was made; it has " +
-                                          std::to_string(source->info().frame_count) + " frames");
-    }
-    if (!writeClip(arguments, *range, project, run, *source, interrupt.token())) return exit_stopped;
+    range = framesLeft(*range, source->info());
+    ConsoleProgress progress("% written");
+    const auto show = [&](double share) {
+        if (!arguments.quiet) progress.showShare(share);
+    };
+    const ClipWish wish{*range, arguments.overlay, arguments.events.uncorrected};
+    if (!writeClip(wish, project, run, *source, arguments.out, show, interrupt.token())) return exit_stopped;
     std::printf("Clip: %s, frames %d to %d\n", arguments.out.c_str(), range->first, range->last);
     return exit_ok;
 }

@@ -1,5 +1,4 @@
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <utility>
@@ -18,11 +17,11 @@
 #include "core/error.h"
 #include "correction/corrected_run.h"
 #include "exchange/project_labels.h"
-#include "exchange/project_world.h"
+#include "exchange/run_export.h"
 #include "exchange/vmti_export.h"
+#include "formats/track_world.h"
 #include "store/database/snapshot.h"
 #include "store/labels/annotation_store.h"
-#include "store/review/control_points.h"
 
 namespace eyrie::cli {
 namespace {
@@ -86,15 +85,6 @@ void exportAnnotations(const ExportArguments& arguments, ProjectFile& project) {
     writeAndTell(arguments, labels, labels.about, sequence.path);
 }
 
-bool tellsWorld(const std::string& format) {
-    const auto& formats = labelFormats();
-    return std::any_of(formats.begin(), formats.end(),
-                       [&](const LabelFormatInfo& info) { return info.name == format && info.tells_world; });
-}
-
-/// Not a format of labels: it needs the video, and is one.
-constexpr char kVmti[] = "vmti";
-
 /// Tracks of a run in a copy of its video.
 void exportVmti(const ExportArguments& arguments, ProjectFile& project, const RunRecord& run,
                 const CorrectedTracks& corrected) {
@@ -103,8 +93,7 @@ void exportVmti(const ExportArguments& arguments, ProjectFile& project, const Ru
     const InterruptGuard interrupt;
     const auto video = openInput(run.sequence.path, 0, interrupt.token(), run.sequence.frame_rate_hz);
     LabelStream labels = labelStreamOf(store, run, corrected);
-    labels.about.world = trackWorldOf(store, run, video.get(), startOf(arguments.start), interrupt.token(),
-                                      readControlPoints(project, run.sequence.id));
+    addWorld(labels, project, run, video.get(), startOf(arguments.start), interrupt.token());
     const VmtiReport report = writeVmti(labels, *video, arguments.out, {}, interrupt.token());
     std::printf("%s: a copy of %s with %d VMTI sets of %d targets\n", arguments.out.c_str(), run.sequence.path.c_str(),
                 report.frames, report.targets);
@@ -126,7 +115,7 @@ void exportRun(const ExportArguments& arguments, ProjectFile& project) {
     const bool own = arguments.detections || arguments.uncorrected;
     const CorrectedTracks corrected = own ? CorrectedTracks() : readCorrectedTracks(project, run);
     const Snapshot unchanging(project);
-    if (arguments.format == kVmti) return exportVmti(arguments, project, run, corrected);
+    if (arguments.format == kVmtiFormat) return exportVmti(arguments, project, run, corrected);
     LabelStream labels = arguments.detections ? labelStreamOf(store, run, true) : labelStreamOf(store, run, corrected);
     const InterruptGuard interrupt;
     std::unique_ptr<FrameSource> pixels;
@@ -137,16 +126,15 @@ void exportRun(const ExportArguments& arguments, ProjectFile& project) {
             // Boxes can be written without it; what needs times or places on the earth says so.
             if (interrupt.token().stop_requested()) throw;
         }
-        labels.about.world = trackWorldOf(store, run, pixels.get(), startOf(arguments.start), interrupt.token(),
-                                          readControlPoints(project, run.sequence.id));
+        addWorld(labels, project, run, pixels.get(), startOf(arguments.start), interrupt.token());
     }
     writeAndTell(arguments, labels, labels.about, run.sequence.path);
 }
 
 void exportLabels(const ExportArguments& arguments) {
-    if (arguments.format == kVmti && (!arguments.from.empty() || arguments.labels))
+    if (arguments.format == kVmtiFormat && (!arguments.from.empty() || arguments.labels))
         throw Error(ErrorKind::parameter, "vmti is written of runs: give --project and, if need be, --run");
-    if (arguments.format == kVmti && arguments.detections)
+    if (arguments.format == kVmtiFormat && arguments.detections)
         throw Error(ErrorKind::parameter,
                     "vmti holds targets that are followed, which detections are not: leave --detections out, or choose "
                     "another format");
@@ -178,7 +166,8 @@ void addExportCommand(CLI::App& app, int& exit_code) {
     command->add_option("--start", arguments->start, kStartHelp)->needs(project);
     command->add_option("--from", arguments->from, "File or folder of labels to convert")->excludes(project);
     addLabelOptions(*command, arguments->from_labels, "--from-format", "--from-columns");
-    command->add_option("--format", arguments->format, "One of " + formatNames(true) + ", " + kVmti)->required();
+    command->add_option("--format", arguments->format, "One of " + formatNames(true) + ", " + kVmtiFormat)
+        ->required();
     command->add_option("--out", arguments->out, "File, or folder for formats with a text file per image")->required();
     command->add_option("--columns", arguments->options.columns, "Columns of your own table, for format columns");
     command->add_option("--out-first-frame", arguments->options.first_frame_number,

@@ -8,7 +8,6 @@
 
 #include "chain/recording/run_resume.h"
 #include "chain/scale_estimation.h"
-#include "cli/annotator.h"
 #include "cli/arguments/earlier_state.h"
 #include "cli/arguments/input.h"
 #include "cli/arguments/output_arguments.h"
@@ -29,6 +28,7 @@
 #include "io/video/parts/part_list.h"
 #include "io/video/video_writer.h"
 #include "metadata/metadata_scale.h"
+#include "report/clip/annotator.h"
 
 namespace eyrie::cli {
 namespace {

@@ -3,6 +3,7 @@
 #include <QTableWidget>
 #include <fstream>
 
+#include "label/files/label_export.h"
 #include "label/files/label_files.h"
 #include "ui/label/labelling.h"
 #include "ui/support/ui_test.h"
@@ -42,8 +43,8 @@ class LabelFilesTest : public QObject, test::Labelling {
         QCOMPARE(labels.annotations().objects.size(), std::size_t(2));
         QVERIFY(import.summary().contains(QStringLiteral("2 objects")));
 
-        LabelExportDialog exported(labels);
-        QSignalSpy finished(&exported, &LabelExportDialog::finishedExport);
+        ExportDialog exported(labelExport(labels));
+        QSignalSpy finished(&exported, &ExportDialog::finishedExport);
         exported.setFormat(QStringLiteral("mot"));
         exported.setTarget(home() / "out.txt");
         exported.startExport();

@@ -12,10 +12,8 @@ class QCheckBox;
 class QComboBox;
 class QDialogButtonBox;
 class QDoubleSpinBox;
-class QLabel;
 class QLineEdit;
 class QPlainTextEdit;
-class QPushButton;
 class QSpinBox;
 class QTableWidget;
 
@@ -68,40 +66,6 @@ class LabelImportDialog : public QDialog {
     QCheckBox* link_;
     QPlainTextEdit* text_;
     QDialogButtonBox* buttons_;
-    BackgroundQuery query_;  ///< last: stops before the rest goes
-};
-
-/// Labels to a file in any format; afterwards says what the format could not carry.
-class LabelExportDialog : public QDialog {
-    Q_OBJECT
-
- public:
-    /// `labels` must be open and outlive the dialog.
-    explicit LabelExportDialog(LabelSession& labels, QWidget* parent = nullptr);
-    ~LabelExportDialog() override;
-
-    void setFormat(const QString& name);
-    void setTarget(const std::filesystem::path& path);
-    void startExport();
-    QString report() const;
-
- signals:
-    void finishedExport(bool fine);
-
- private:
-    void browse();
-    void showFormat();
-    void showEnd(const QString& text, bool fine);
-
-    LabelSession& labels_;
-    QComboBox* format_;
-    QLabel* carries_;
-    QLineEdit* target_;
-    QLineEdit* columns_;
-    QCheckBox* clip_;
-    QPlainTextEdit* text_;
-    QPushButton* export_;
-    QString agreed_;         ///< the target that somebody agreed to replace
     BackgroundQuery query_;  ///< last: stops before the rest goes
 };
 

@@ -261,6 +261,10 @@ std::optional<std::size_t> EventsDock::placeOf(int id) const {
     return entry != nullptr ? std::optional(entry->position) : std::nullopt;
 }
 
+std::optional<std::size_t> EventsDock::currentPlace() const {
+    return placeOf(panel_->currentId());
+}
+
 void EventsDock::chooseAndShow(std::optional<int> id) {
     if (!id) return;
     panel_->selectId(*id);

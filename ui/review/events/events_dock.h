@@ -57,6 +57,8 @@ class EventsDock : public QObject {
 
     /// Whether keys and marks are wanted: labelling has others.
     void setActive(bool active);
+    /// The current row as a place in the queue.
+    std::optional<std::size_t> currentPlace() const;
     /// Shows an event: its frame, its track, its place.
     void show(int id);
     /// Who is told which event a person chose.

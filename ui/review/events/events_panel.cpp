@@ -276,6 +276,7 @@ void EventsPanel::rowDoubleClicked(int id) {
 void EventsPanel::fillMenu(QMenu& menu, int id) {
     menu.addActions({actions_.relevant, actions_.not_relevant, actions_.unsure, actions_.take_back, actions_.star});
     menu.addAction(tr("Write a note"), this, [this, id] { editNote(id); });
+    menu.addAction(actions_.clip_event);
 }
 
 bool EventsPanel::eventFilter(QObject* watched, QEvent* event) {

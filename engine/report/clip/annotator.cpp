@@ -1,4 +1,4 @@
-#include "cli/annotator.h"
+#include "report/clip/annotator.h"
 
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
@@ -7,7 +7,7 @@
 
 #include "io/video/frame_colour.h"
 
-namespace eyrie::cli {
+namespace eyrie {
 namespace {
 
 const cv::Scalar yellow(40, 220, 255);
@@ -92,4 +92,4 @@ void Annotator::drawTracks(cv::Mat& picture, const FrameResult& result, double z
     }
 }
 
-}  // namespace eyrie::cli
+}  // namespace eyrie

@@ -7,7 +7,7 @@
 #include "core/values/frame.h"
 #include "core/values/frame_result.h"
 
-namespace eyrie::cli {
+namespace eyrie {
 
 /// Draws what the chain found into pictures for the annotated video: motion vectors yellow, clusters cyan, detections
 /// red, tracks green with id and trail (the thesis' colours). Small videos are enlarged so that labels can be read.
@@ -33,4 +33,4 @@ class Annotator {
 /// Factor by which frames of this size are enlarged.
 int annotationZoom(cv::Size size);
 
-}  // namespace eyrie::cli
+}  // namespace eyrie

@@ -1,0 +1,24 @@
+#include "exchange/run_export.h"
+
+#include <algorithm>
+
+#include "exchange/project_world.h"
+#include "formats/label_formats.h"
+#include "store/review/control_points.h"
+
+namespace eyrie {
+
+bool tellsWorld(const std::string& format) {
+    const auto& formats = labelFormats();
+    return format == kVmtiFormat || std::any_of(formats.begin(), formats.end(), [&](const LabelFormatInfo& info) {
+               return info.name == format && info.tells_world;
+           });
+}
+
+void addWorld(LabelStream& labels, ProjectFile& project, const RunRecord& run, const FrameSource* pixels,
+              std::optional<std::int64_t> start_utc_us, const std::stop_token& stop) {
+    labels.about.world =
+        trackWorldOf(RunStore(project), run, pixels, start_utc_us, stop, readControlPoints(project, run.sequence.id));
+}
+
+}  // namespace eyrie

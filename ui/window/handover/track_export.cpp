@@ -1,0 +1,110 @@
+#include "window/handover/track_export.h"
+
+#include <QCoreApplication>
+
+#include "correction/corrected_run.h"
+#include "exchange/project_labels.h"
+#include "exchange/run_export.h"
+#include "exchange/vmti_export.h"
+#include "formats/track_world.h"
+#include "label/files/label_export.h"
+#include "label/files/label_files_text.h"
+#include "session/project_session.h"
+#include "store/database/snapshot.h"
+#include "store/project/project_file.h"
+
+namespace eyrie::ui {
+
+namespace {
+
+QString tell(const char* text) {
+    return QCoreApplication::translate("TrackExport", text);
+}
+
+/// The run and where it and its video are.
+struct ExportedRun {
+    RunRecord record;
+    std::filesystem::path project;
+    std::optional<Media> media;
+};
+
+ExportOffer vmtiOffer() {
+    return {QString::fromLatin1(kVmtiFormat), tell("MISB ST 0903 VMTI in a copy of the video"), QStringLiteral("ts"),
+            tell("targets with ids, confidence, boxes, and places where they are known; not: rotation")};
+}
+
+QString vmtiText(const VmtiReport& report, const LabelStream& labels) {
+    QString text =
+        tell("Wrote a copy of the video with %1 sets of %2 targets.\n").arg(report.frames).arg(report.targets);
+    text += tell("Times: %1\n").arg(QString::fromStdString(report.clock_origin));
+    text += tell("Places: %1\n")
+                .arg(QString::fromStdString(report.place_origin.empty() ? labels.about.world->no_place
+                                                                        : report.place_origin));
+    if (report.without_place > 0 && !report.place_origin.empty())
+        text += tell("%1 targets have no place.\n").arg(report.without_place);
+    if (report.without_stamp > 0)
+        text += tell("%1 frames are left out: their pictures have no stamp in the video.\n").arg(report.without_stamp);
+    return text + lines(labels.about.notes);
+}
+
+std::unique_ptr<FrameSource> pixelsOf(const ExportedRun& run, bool needed, const std::stop_token& stop) {
+    if (!run.media) return nullptr;
+    try {
+        return run.media->open({}, stop);
+    } catch (const Error&) {
+        // Boxes can be written without it; what needs times or places on the earth says so.
+        if (needed || stop.stop_requested()) throw;
+        return nullptr;
+    }
+}
+
+std::optional<QString> writeTracks(const ExportedRun& run, const ExportWish& wish, const ExportProgress& progress,
+                                   const std::stop_token& stop) {
+    ProjectFile project = ProjectFile::open(run.project, ProjectFile::Mode::read_only);
+    const RunStore store(project);
+    const CorrectedTracks corrected = readCorrectedTracks(project, run.record);
+    const Snapshot unchanging(project);
+    LabelStream labels = labelStreamOf(store, run.record, corrected);
+    const bool as_video = wish.format == kVmtiFormat;
+    std::unique_ptr<FrameSource> pixels;
+    if (tellsWorld(wish.format)) {
+        pixels = pixelsOf(run, as_video, stop);
+        addWorld(labels, project, run.record, pixels.get(), {}, stop);
+    }
+    if (!as_video) {
+        const LabelFile about = labels.about;
+        ExportReport report =
+            writeLabels(labels, wish.path, wish.format, exportOptionsOf(wish, run.record.sequence.path));
+        return exportText(report) + lines(about.notes);
+    }
+    if (!pixels) throw Error(ErrorKind::input, run.record.sequence.path + ": the video is needed for this format");
+    const VmtiReport report = writeVmti(labels, *pixels, wish.path, progress, stop);
+    if (stop.stop_requested()) return std::nullopt;
+    return vmtiText(report, labels);
+}
+
+}  // namespace
+
+ExportSource trackExport(const ProjectSession& session) {
+    const ExportedRun run{session.runData()->record, session.project(), session.media()};
+    ExportSource source;
+    source.title = tell("Export tracks");
+    source.name =
+        tell("%1 tracks").arg(QString::fromStdString(std::filesystem::path(run.record.sequence.path).stem().string()));
+    for (const LabelFormatInfo& format : labelFormats())
+        if (format.writes) source.offers << offerOf(format);
+    if (run.media && !isScene(run.record.sequence.path)) source.offers << vmtiOffer();
+    source.read = {run.project, run.record.sequence.path};
+    source.files = [run](const ExportWish& wish) -> std::vector<OutputFile> {
+        if (wish.format == kVmtiFormat) return {{wish.path, FileKind::video}};
+        return labelOutputs(wish, exportOptionsOf(wish, run.record.sequence.path));
+    };
+    source.begin = [run](const ExportWish& wish) -> ExportWork {
+        return [run, wish](const ExportProgress& progress, const std::stop_token& stop) {
+            return writeTracks(run, wish, progress, stop);
+        };
+    };
+    return source;
+}
+
+}  // namespace eyrie::ui
