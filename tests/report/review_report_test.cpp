@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <opencv2/imgcodecs.hpp>
+
 #include "core/error.h"
 #include "store/review/review_store.h"
 #include "store/review/seen_store.h"
@@ -135,7 +137,7 @@ TEST_F(ReviewReport, TellsTheChosenEventsWithAllThatIsKnownOfThem) {
     // It stops where xAt does: frame 227 at 25 Hz, 9 s and some after 22:08:22.
     EXPECT_THAT(report.html, HasSubstr("2009-01-12T22:08:3"));
     EXPECT_THAT(report.html, HasSubstr("km/h"));
-    EXPECT_EQ(report.pictures.size(), 4u);  // still, close-up, path, speed
+    EXPECT_EQ(report.pictures.size(), 5u);  // still, close-up, path, speed, ground
     const std::string one_file = selfContained(report);
     EXPECT_THAT(one_file, AllOf(HasSubstr("data:image/jpeg;base64,"), HasSubstr("data:image/svg+xml;base64,")));
     EXPECT_THAT(one_file,
@@ -207,6 +209,29 @@ TEST_F(ReviewReport, PicturesThatCannotBeReadAreLeftOutAndSaid) {
     std::stop_source stop;
     stop.request_stop();
     EXPECT_THAT(makeReviewReport(input, &pixels, {}, stop.get_token()).html, HasSubstr("stopped"));
+}
+
+TEST_F(ReviewReport, TheGroundShowsWhereTheEventsWereAndTheWaysThere) {
+    writeRun(true);
+    const ReviewReportInput input = gather();
+    GreyVideo pixels;
+    const ReportFile report = makeReviewReport(input, &pixels);
+    EXPECT_THAT(report.html, HasSubstr("ground-1"));
+    ASSERT_TRUE(report.pictures.contains("ground-1"));
+    const std::string& bytes = report.pictures.at("ground-1").bytes;
+    const cv::Mat ground = cv::imdecode(std::vector<char>(bytes.begin(), bytes.end()), cv::IMREAD_COLOR);
+    ASSERT_EQ(ground.size(), kSize);  // a camera that stands sees no more
+    const auto isGrey = [&](cv::Point at) {
+        const cv::Vec3b pixel = ground.at<cv::Vec3b>(at);
+        return std::abs(pixel[0] - 120) + std::abs(pixel[1] - 120) + std::abs(pixel[2] - 120) < 60;
+    };
+    EXPECT_FALSE(isGrey({150, 200})) << "the way";
+    EXPECT_TRUE(isGrey({150, 230}));
+    EXPECT_TRUE(isGrey({500, 200})) << "where nobody went";
+    // The car stops at x = 320: the ring around its place.
+    EXPECT_FALSE(isGrey({320, 209}));
+    GreyVideo damaged(50);
+    EXPECT_THAT(htmlOf(input, &damaged), HasSubstr("There is no picture of the ground: frame "));
 }
 
 TEST_F(ReviewReport, LimitsThatDifferAreTold) {

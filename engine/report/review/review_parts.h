@@ -46,6 +46,16 @@ std::string pathSketch(const ReviewScene& scene, const Event& event);
 /// Speed of its vehicles some seconds around the event, SVG; empty without any.
 std::string speedSketch(const ReviewScene& scene, const Event& event);
 
+/// The ground on which events lie, seen from above.
+struct GroundChapter {
+    std::vector<std::string> pictures;  ///< names in the report: one for each stretch of ground, busiest first
+    std::size_t left_out = 0;           ///< events on stretches that have no picture
+};
+/// Adds mosaics of the ground with the ways of the vehicles of `events`, as indices, and the events' places and
+/// numbers. Throws Error(input) where the video cannot be read. Stopped, there is none.
+GroundChapter addGround(const ReviewScene& scene, const std::vector<std::size_t>& events, FrameSource& pixels,
+                        ReportFile& report, const std::stop_token& stop);
+
 /// "Ada at 2026-11-21T08:00:00Z"; empty where nobody is known.
 std::string judgeText(const Verdict& verdict);
 

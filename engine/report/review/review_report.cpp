@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
 #include "core/time_text.h"
 #include "core/utc_time.h"
 #include "georeference/video_world.h"
@@ -163,6 +164,28 @@ std::string addStills(const ReviewScene& scene, const std::vector<std::size_t>& 
     return {};
 }
 
+void tellGround(ReportPage& page, const ReviewScene& scene, const std::vector<std::size_t>& chosen, FrameSource* pixels,
+                ReportFile& report, const std::stop_token& stop) {
+    if (chosen.empty() || pixels == nullptr) return;
+    GroundChapter ground;
+    try {
+        ground = addGround(scene, chosen, *pixels, report, stop);
+    } catch (const Error& error) {
+        page.chapter("The ground");
+        page.paragraph("There is no picture of the ground: " + markupEscaped(error.what()) + ".");
+        return;
+    }
+    if (ground.pictures.empty()) return;
+    page.chapter("The ground");
+    std::string text =
+        "What was seen of the ground, from above. Rings are the places of the events with their numbers; lines are the "
+        "ways of their vehicles, blue while the event lasts.";
+    if (ground.left_out > 0)
+        text += " " + std::to_string(ground.left_out) + " events lie on ground that is not shown here.";
+    page.paragraph(text);
+    for (const std::string& name : ground.pictures) page.paragraph(picture(name));
+}
+
 }  // namespace
 
 ReviewScene::ReviewScene(const ReviewReportInput& input)
@@ -250,6 +273,7 @@ ReportFile makeReviewReport(const ReviewReportInput& input, FrameSource* pixels,
             "event blue, its place ringed; an arrow where the track ends.");
     }
     for (const std::size_t index : chosen) tellEvent(page, scene, index, report);
+    tellGround(page, scene, chosen, pixels, report, stop);
     tellRemainder(page, scene);
     const std::string name = std::filesystem::path(input.reviewed.run.sequence.path).filename().string();
     report.html = reportPage("Events of " + name + ", run " + std::to_string(input.reviewed.run.id), page.take());

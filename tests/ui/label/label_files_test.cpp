@@ -3,8 +3,8 @@
 #include <QTableWidget>
 #include <fstream>
 
-#include "label/files/label_export.h"
 #include "label/files/label_files.h"
+#include "label/files/label_files_export.h"
 #include "ui/label/labelling.h"
 #include "ui/support/ui_test.h"
 

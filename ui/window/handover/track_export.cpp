@@ -7,7 +7,7 @@
 #include "exchange/run_export.h"
 #include "exchange/vmti_export.h"
 #include "formats/track_world.h"
-#include "label/files/label_export.h"
+#include "label/files/label_files_export.h"
 #include "label/files/label_files_text.h"
 #include "session/project_session.h"
 #include "store/database/snapshot.h"

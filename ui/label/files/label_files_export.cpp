@@ -1,4 +1,4 @@
-#include "label/files/label_export.h"
+#include "label/files/label_files_export.h"
 
 #include <QCoreApplication>
 #include <QStringList>

@@ -1,0 +1,129 @@
+#include <algorithm>
+#include <map>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "ground/ground_mosaic.h"
+#include "ground/place_history.h"
+#include "report/review/review_parts.h"
+
+namespace eyrie {
+namespace {
+
+constexpr std::size_t kMostSheets = 6;
+constexpr int kWantedFrames = 150;
+constexpr std::int64_t kMostPixels = 6'000'000;
+constexpr int kWidest = 1800;  ///< px
+constexpr double kWidth_mm = 170;
+constexpr int kGroundQuality = 85;
+constexpr int kGroundBits = 4;
+constexpr double kLeastWay = 2;  ///< between points of a way, units of the sheet
+
+const cv::Scalar kEdge(20, 20, 20);
+const cv::Scalar kWay(230, 230, 230);
+const cv::Scalar kEventWay(230, 150, 45);
+const cv::Scalar kPlace(70, 90, 255);
+
+/// The mosaic of one sheet on its way to a picture of the report.
+class SheetPainter {
+ public:
+    SheetPainter(const MosaicSheet& sheet, const GroundSheets& sheets) : sheet_(sheet), sheets_(sheets) {
+        zoom_ = std::min(1.0, static_cast<double>(kWidest) / sheet.picture.cols);
+        cv::resize(sheet.picture, picture_, {}, zoom_, zoom_, cv::INTER_AREA);
+        if (picture_.channels() == 1) cv::cvtColor(picture_, picture_, cv::COLOR_GRAY2BGR);
+    }
+
+    void way(const SheetPath& path, FrameIndex first, FrameIndex last) const {
+        std::vector<cv::Point> all, part;
+        for (const FramePoint& point : path.points) {
+            all.push_back(fixed(point.at));
+            if (point.frame >= first && point.frame <= last) part.push_back(all.back());
+        }
+        cv::polylines(picture_, all, false, kEdge, 3, cv::LINE_AA, kGroundBits);
+        cv::polylines(picture_, all, false, kWay, 1, cv::LINE_AA, kGroundBits);
+        cv::polylines(picture_, part, false, kEventWay, 3, cv::LINE_AA, kGroundBits);
+    }
+
+    void place(const Event& event, std::size_t number) const {
+        const cv::Matx33d& map = sheets_.sheetFromImage(event.frame);
+        const cv::Vec3d at = map * cv::Vec3d(event.place.x, event.place.y, 1);
+        const cv::Point centre = fixed({at[0] / at[2], at[1] / at[2]});
+        for (const auto& [colour, width] : {std::pair(kEdge, 4), std::pair(kPlace, 2)})
+            cv::circle(picture_, centre, 9 << kGroundBits, colour, width, cv::LINE_AA, kGroundBits);
+        const std::string text = std::to_string(number);
+        cv::Point label(centre.x / (1 << kGroundBits) + 12, centre.y / (1 << kGroundBits) + 5);
+        label.x = std::clamp(label.x, 0, std::max(0, picture_.cols - 10 * static_cast<int>(text.size()) - 4));
+        label.y = std::clamp(label.y, 12, std::max(12, picture_.rows - 4));
+        for (const auto& [colour, width] : {std::pair(kEdge, 4), std::pair(kPlace, 1)})
+            cv::putText(picture_, text, label, cv::FONT_HERSHEY_SIMPLEX, 0.5, colour, width, cv::LINE_AA);
+    }
+
+    std::string jpeg() const {
+        std::vector<unsigned char> bytes;
+        cv::imencode(".jpg", picture_, bytes, {cv::IMWRITE_JPEG_QUALITY, kGroundQuality});
+        return {bytes.begin(), bytes.end()};
+    }
+
+ private:
+    cv::Point fixed(cv::Point2d on_sheet) const {
+        const cv::Point2d p = (sheet_.pictureFromSheet(on_sheet) + cv::Point2d(0.5, 0.5)) * zoom_;
+        return {cvRound((p.x - 0.5) * (1 << kGroundBits)), cvRound((p.y - 0.5) * (1 << kGroundBits))};
+    }
+
+    const MosaicSheet& sheet_;
+    const GroundSheets& sheets_;
+    double zoom_ = 1;
+    cv::Mat picture_;
+};
+
+/// The sheets on which events lie, those with most first.
+std::vector<std::pair<int, std::vector<std::size_t>>> sheetsOf(const std::vector<std::size_t>& events,
+                                                               const ReviewScene& scene, const GroundSheets& sheets) {
+    std::map<int, std::vector<std::size_t>> found;
+    for (const std::size_t index : events) {
+        const int sheet = sheets.sheetOf(scene.input().reviewed.events[index].frame);
+        if (sheet >= 0) found[sheet].push_back(index);
+    }
+    std::vector<std::pair<int, std::vector<std::size_t>>> ordered(found.begin(), found.end());
+    std::stable_sort(ordered.begin(), ordered.end(),
+                     [](const auto& a, const auto& b) { return a.second.size() > b.second.size(); });
+    return ordered;
+}
+
+}  // namespace
+
+GroundChapter addGround(const ReviewScene& scene, const std::vector<std::size_t>& events, FrameSource& pixels,
+                        ReportFile& report, const std::stop_token& stop) {
+    GroundChapter chapter;
+    const Footage& footage = scene.input().reviewed.tracks.footage;
+    const auto sheets = std::make_shared<const GroundSheets>(footage, footage.first_frame);
+    auto ordered = sheetsOf(events, scene, *sheets);
+    if (ordered.empty()) return chapter;
+    for (std::size_t i = kMostSheets; i < ordered.size(); ++i) chapter.left_out += ordered[i].second.size();
+    if (ordered.size() > kMostSheets) ordered.resize(kMostSheets);
+    GroundMosaic mosaic(sheets, {kMostPixels, kWantedFrames, true});
+    for (const FrameIndex frame : mosaic.frames()) {
+        if (stop.stop_requested()) return {};
+        const bool shown = std::any_of(ordered.begin(), ordered.end(),
+                                       [&](const auto& sheet) { return sheet.first == sheets->sheetOf(frame); });
+        if (shown && frame < pixels.info().frame_count) mosaic.paint(pixels.read(frame, true));
+    }
+    const auto paths = pathsOn(*sheets, scene.input().reviewed.tracks.tracks, kLeastWay);
+    for (const auto& [sheet, indices] : ordered) {
+        const auto at = static_cast<std::size_t>(sheet);
+        const SheetPainter painter(mosaic.sheets()[at], *sheets);
+        for (const std::size_t index : indices) {
+            const Event& event = scene.input().reviewed.events[index];
+            for (const SheetPath& path : paths[at])
+                if (std::find(event.tracks.begin(), event.tracks.end(), path.track) != event.tracks.end())
+                    painter.way(path, event.first_frame, event.last_frame);
+        }
+        for (const std::size_t index : indices) painter.place(scene.input().reviewed.events[index], index + 1);
+        const std::string name = "ground-" + std::to_string(sheet + 1);
+        report.add(name, ReportPicture::Kind::jpeg, painter.jpeg(), kWidth_mm);
+        chapter.pictures.push_back(name);
+    }
+    return chapter;
+}
+
+}  // namespace eyrie
