@@ -75,8 +75,9 @@ void describeVectors(TrackerOptions& o, const ParameterDeclarer& declare) {
     declare.choice(
         "tracking.rebuilt_size", o.rebuilt_size, {"predicted", "stored"},
         {"",
-         "The size of a rebuilt box. stored: the median of the sizes that its vectors stored, and the box is "
-         "measured like a detection; predicted: the track keeps its size, and the place is trusted more.",
+         "The size of a rebuilt box. stored: the median of the sizes that its vectors stored, each placed by its own "
+         "vector's heading, and the box is measured like a detection; predicted: the track keeps its size, and the "
+         "place is trusted more.",
          "Teutsch §6.3"});
     declare.integer("tracking.max_vectors", o.max_vectors, 1, 1000,
                     {"", "Largest number of motion vectors associated to a track.", "Teutsch §6.2.2"});

@@ -22,7 +22,8 @@ enum class AppearanceUse {
 /// The size of a box that motion vectors rebuild.
 enum class RebuiltSize {
     predicted,  ///< the track's own; only the place is measured
-    stored      ///< the median of what the vectors stored; the box is measured like a detection, as in the thesis
+    stored      ///< the median of what the vectors stored, each box placed by its vector's own heading; it is
+                ///< measured like a detection, as in the thesis
 };
 
 /// Parameters of the tracker (Teutsch ch. 6). Metres are turned into pixels once, in the tracker's constructor; pixel

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "chain/chain.h"
+#include "scene/painting/scene_renderer.h"
+#include "scene/towns/scene_preset.h"
 #include "support/moving_scene.h"
 
 /// The thesis' preset, as it is, through the whole chain: two vehicles that merge, one that splits, one that is missed
@@ -169,6 +171,55 @@ TEST(ThesisChain, holdsTheLimitsOfTheText) {
         }
     }
     EXPECT_GT(detections, 100) << "five vehicles in 60 frames";
+}
+
+/// A corner alone, and two that belong together.
+TEST(ThesisChain, noClusterIsTooSmallToBeSearched) {
+    FrameMotion motion;
+    motion.image_size = {320, 240};
+    motion.motion_vectors = {{1, {100, 100}, {2, 0}, 9}, {2, {200, 100}, {2, 0}, 9}, {3, {204, 102}, {2, 0}, 9}};
+    const auto clusters = MotionClustering(builtInPreset("thesis").clustering, {0.2, 25, true}).cluster(motion);
+    ASSERT_EQ(clusters.size(), 2U);
+    EXPECT_EQ(clusters[0].members, std::vector<int>{0});
+    EXPECT_EQ(clusters[1].members, (std::vector<int>{1, 2}));
+}
+
+TEST(ThesisChain, slidingWindowsFindVehiclesByTheModelOfTheText) {
+    constexpr double kCar = 4.6, kCarWidth = 2.0;  // m, of a vehicle that fills the window
+    ChainOptions options = builtInPreset("thesis");
+    options.detection.method = DetectionMethod::sliding_window;
+    const SceneRenderer scene(scenePreset("egtest01"));
+    const SceneScale scale{scene.scene().gsd_m_per_px, scene.scene().frame_rate_hz, true};
+    Chain chain(options, scale);
+    int found = 0, on_vehicles = 0;
+    std::set<TrackId> reliable;
+    for (int frame = 0; frame < 40; ++frame) {
+        const RenderedFrame rendered = scene.render(frame);
+        const FrameResult result = chain.next(rendered.frame);
+        for (const Detection& detection : result.detections) {
+            if (detection.rejection != Rejection::none) continue;
+            ++found;
+            on_vehicles += std::any_of(rendered.truth.begin(), rendered.truth.end(), [&](const SceneObject& object) {
+                return overlap(object.box, detection.box) > 0.2;
+            });
+            EXPECT_TRUE(detection.complete) << "the classifier's own";
+            EXPECT_GE(detection.score, 0) << "T_d";
+            EXPECT_GE(detection.vectors.size(), 4U);
+            // The window has one width and three lengths; areas are scaled to whole pixels.
+            EXPECT_NEAR(detection.box.width / scale.px(kCarWidth), 1, 0.05);
+            double nearest = 10;
+            for (const double length : {0.85, 1.0, 3.8})
+                nearest = std::min(nearest, std::abs(detection.box.length / (length * scale.px(kCar)) - 1));
+            EXPECT_LT(nearest, 0.05) << detection.box.length << " px";
+        }
+        for (const TrackState& state : result.tracks) {
+            if (state.status != TrackStatus::tentative) reliable.insert(state.id);
+        }
+    }
+    // Three of six vehicles are in the picture at a time.
+    EXPECT_GT(found, 30);
+    EXPECT_GT(on_vehicles, found / 2);
+    EXPECT_GE(reliable.size(), 2U);
 }
 
 }  // namespace eyrie::thesis_chain_test

@@ -146,6 +146,8 @@ TEST(Mser, ThesisKeepsRegionsFromEdgeToEdge) {
     DetectionOptions options;
     options.method = DetectionMethod::mser;
     EXPECT_EQ(cv::countNonZero(layerOf(options, roi, "binary")), 0);
+    setParameter(describeOf(options), "mser.keep_spanning", "true");
+    EXPECT_GT(cv::countNonZero(layerOf(options, roi, "binary")), 700);
     options.mser = MserOptions::thesis();
     EXPECT_GT(cv::countNonZero(layerOf(options, roi, "binary")), 700);
 }

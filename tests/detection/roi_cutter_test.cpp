@@ -49,6 +49,22 @@ TEST(RoiCutter, ExtendsAsMuchAsItsParametersSay) {
     EXPECT_DOUBLE_EQ(area("detection.extend_across", "1.5").width, 60);
 }
 
+TEST(RoiCutter, IsAtLeastAsLargeAsItsParametersSay) {
+    MotionCluster cluster;
+    cluster.box = {{100, 80}, 20, 8, 0.4};
+    const auto area = [&](const char* name, const char* metres) {
+        DetectionOptions options = DetectionOptions::thesis();
+        setParameter(describeOf(options), name, metres);
+        return extendedCluster(cluster, {320, 240}, options, kContractScale);
+    };
+    EXPECT_DOUBLE_EQ(area("detection.min_roi_length", "5.5").length, 5.5 / 0.11);
+    EXPECT_DOUBLE_EQ(area("detection.min_roi_length", "5.5").width, 10);
+    EXPECT_DOUBLE_EQ(area("detection.min_roi_length", "3.3").length, 40) << "the extended cluster is longer";
+    EXPECT_DOUBLE_EQ(area("detection.min_roi_width", "2.2").width, 2.2 / 0.11);
+    EXPECT_DOUBLE_EQ(area("detection.min_roi_width", "2.2").length, 40);
+    EXPECT_DOUBLE_EQ(area("detection.min_roi_width", "1").width, 10);
+}
+
 TEST(RoiCutter, TheThesisSearchesTheExtendedClusterWithEveryMethod) {
     MotionCluster cluster;
     cluster.box = {{100, 80}, 70, 40, 0.4};

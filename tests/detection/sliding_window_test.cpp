@@ -299,6 +299,26 @@ TEST(SlidingWindow, TheGlobalOnePlacesItsBoxesToTheFractionOfAPixel) {
     EXPECT_NEAR(found[0].box.width, best.width, 1e-9);
 }
 
+TEST(ModelLocation, TheModelOfTheThesisIsTrainedAsItsTextSays) {
+    const VehicleModel model = loadModel(modelLocation(SlidingWindowOptions::thesis().model));
+    EXPECT_EQ(model.descriptor->kind(), DescriptorKind::channel_features);
+    EXPECT_EQ(model.descriptor->dimension(), 2000);
+    const auto* boosted = dynamic_cast<const GentleAdaBoost*>(model.classifier.get());
+    ASSERT_NE(boosted, nullptr);
+    EXPECT_EQ(boosted->trees().size(), 1000U);
+    const TrainingRecord& record = model.record;
+    EXPECT_EQ(record.hard_negative_rounds, 0);
+    EXPECT_EQ(record.vehicles, record.others) << "as many of the background as of vehicles";
+    EXPECT_THAT(record.data, testing::Not(testing::HasSubstr("rendered"))) << "pictures of the world alone";
+    // Every tree sees all features and all samples, and the samples are no copies.
+    for (const char* setting :
+         {"training.trees = 1000\n", "training.hard_negative_rounds = 0\n", "training.feature_share = 1\n",
+          "training.weight_trimming = 0\n", "training.duplicates = false\n", "training.mirrored = false\n",
+          "training.varied_copies = 0\n", "training.misfit_copies = 0\n"})
+        EXPECT_THAT(record.settings, testing::HasSubstr(setting));
+    EXPECT_NE(modelLocation("thesis"), modelLocation(""));
+}
+
 TEST(ModelLocation, SaysWhereItLooked) {
     EXPECT_THAT(messageOf([] { modelLocation("nowhere/at/all.eyriemodel"); }),
                 testing::HasSubstr("nowhere/at/all.eyriemodel: there is no such model"));

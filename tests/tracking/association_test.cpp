@@ -253,6 +253,41 @@ TEST(SplitMerge, theRebuiltSizeIsPredictedOrTheMedianOfTheStoredOnes) {
     EXPECT_TRUE(told->size_known);
 }
 
+TEST(SplitMerge, eachVectorPlacesItsBoxByItsOwnHeadingWhereSizesAreStored) {
+    // Three boxes by hand; each vector sits 10 px before the centre of its own, and drives askew to it.
+    const std::vector<OrientedBox> suggested{{{49, 50}, 20, 9, 0.5}, {{50, 51}, 26, 10, -0.5}, {{51, 52}, 22, 14, 0}};
+    const double directions[] = {0.1, -0.2, 0.3};
+    std::vector<MotionVector> vectors;
+    std::vector<AssociatedVector> associations;
+    for (std::size_t i = 0; i < suggested.size(); ++i) {
+        const OrientedBox& box = suggested[i];
+        const cv::Point2d velocity = 2 * cv::Point2d(std::cos(directions[i]), std::sin(directions[i]));
+        vectors.push_back({CornerId(i), cv::Point2f(box.toImage({10, 0})), cv::Point2f(velocity), 10});
+        associations.push_back({CornerId(i), {10, 0}, box.heading - directions[i], int(i), box.length, box.width});
+    }
+    const FrameVectors frame(vectors);
+    const OrientedBox predicted{{50, 50}, 30, 13, 0.1};
+    const auto told = reconstructBox(associations, frame, predicted, 1, 0.1, 0, RebuiltSize::stored);
+    ASSERT_TRUE(told);
+    EXPECT_NEAR(told->box.centre.x, 50, 1e-4);
+    EXPECT_NEAR(told->box.centre.y, 51, 1e-4);
+    EXPECT_NEAR(told->box.length, 22, 1e-9);
+    EXPECT_NEAR(told->box.width, 10, 1e-9);
+    EXPECT_NEAR(told->box.heading, 0, 1e-5);
+    // Our way turns all places by the median heading.
+    const auto kept = reconstructBox(associations, frame, predicted, 1, 0.1, 0);
+    ASSERT_TRUE(kept);
+    EXPECT_NEAR(kept->box.centre.x, 50 + 10 * (std::cos(0.5) - 1), 1e-4);
+    EXPECT_NEAR(kept->box.centre.y, 52, 1e-4);
+    // One too slow to tell a heading takes that of the others.
+    vectors[0].velocity *= 0.1F;
+    const auto slow = reconstructBox(associations, FrameVectors(vectors), predicted, 1, 0.5, 0, RebuiltSize::stored);
+    ASSERT_TRUE(slow);
+    EXPECT_NEAR(slow->box.heading, -0.25, 1e-5);
+    EXPECT_NEAR(slow->box.centre.x, 50, 1e-4);
+    EXPECT_NEAR(slow->box.centre.y, 52, 1e-4);
+}
+
 TEST(VectorAssociation, fourCriteria) {
     const std::vector<MotionVector> vectors{{1, {0, 0}, {2, 0}, 9},    // free, inside, similar
                                             {2, {12, 0}, {2, 0}, 9},   // inside both boxes

@@ -167,6 +167,19 @@ TEST(MeasurementModel, ASlowDetectionIsSeenInTheTracksAxes) {
     EXPECT_EQ(unknown.measurement.speed, BoxMeasurement::kUnknown);
 }
 
+TEST(MeasurementModel, SlowSpeedIsInDeviationsOfTheBackgrounds) {
+    // .35 px/frame where the background's deviation is .1.
+    const OrientedBox predicted{{300, 200}, 20, 10, 0.4};
+    const OrientedBox box{{300, 200}, 20, 10, 0.7};
+    for (const auto& [deviations, told] : {std::pair("3", true), {"4", false}, {"0", true}}) {
+        TrackerOptions options = roundOptions();
+        setParameter(describeOf(options), "tracking.slow_speed", deviations);
+        const auto update = updated(box, predicted, options, {0.35, 0});
+        EXPECT_EQ(std::isfinite(update.measurement.heading), told) << deviations;
+        EXPECT_NEAR(update.measurement.box.heading, told ? 0.7 : 0.4, 1e-12) << deviations;
+    }
+}
+
 TEST(MeasurementModel, AVelocityIsKnownWhereItIsNotZeroOrVectorsSayThatItIs) {
     Detection detection = detectionOf({{0, 0}, 20, 10, 0}, {0, 0});
     EXPECT_FALSE(velocityKnown(detection));

@@ -66,6 +66,40 @@ TEST(TrackerThresholds, PartContainmentTellsWhichTracksAMergedDetectionCovers) {
     }
 }
 
+TEST(TrackerThresholds, TheDistanceGateIsTheLargerOfMetresAndPixels) {
+    MovingScene scene = twoCars();
+    scene.objects.resize(1);
+    const auto gated = [&](const char* metres, const char* pixels) {
+        const TrackerOptions options =
+            with("tracking.distance_gate_m", metres, with("tracking.distance_gate_px", pixels));
+        Tracker tracker = trackerAfter(10, scene, options);
+        // Beside the predicted box, which it does not touch.
+        Detection beside = scene.detection(0, 10);
+        beside.box.centre.y += 12;
+        TrackingTrace trace;
+        tracker.next(scene.motion(10), {beside}, &trace);
+        return trace.tracks.at(0);
+    };
+    EXPECT_EQ(gated("0", "0").kind, AssociationKind::missed);
+    EXPECT_EQ(gated("5", "0").kind, AssociationKind::matched) << "20 px";
+    EXPECT_EQ(gated("0", "20").kind, AssociationKind::matched);
+    EXPECT_NEAR(gated("5", "3").gate_px, 20, 1e-9);
+    EXPECT_NEAR(gated("5", "30").gate_px, 30, 1e-9);
+}
+
+TEST(TrackerThresholds, MaxTurnIsHowFarADetectionMayMoveIntoAnotherDirection) {
+    MovingScene scene = twoCars();
+    scene.objects.resize(1);
+    for (const auto& [degrees, kind] : {std::pair("50", AssociationKind::missed), {"70", AssociationKind::matched}}) {
+        Tracker tracker = trackerAfter(10, scene, with("tracking.max_turn", degrees));
+        Detection turned = scene.detection(0, 10);
+        turned.velocity = {2 * std::cos(kPi / 3), 2 * std::sin(kPi / 3)};
+        TrackingTrace trace;
+        tracker.next(scene.motion(10), {turned}, &trace);
+        EXPECT_EQ(trace.tracks.at(0).kind, kind) << degrees;
+    }
+}
+
 TEST(TrackerThresholds, SplitPatienceIsHowLongAMergedTrackIsHeldTogether) {
     const MovingScene scene = neighbours();
     constexpr int kApart = 8;

@@ -30,7 +30,7 @@ struct MotionClusteringOptions {
     double max_length_m = 60;               ///< longer clusters are no vehicles, nor a queue of them; 0: no limit
     double max_width_m = 30;                ///< 0: no limit
 
-    /// The text to the letter, which names neither direction nor density: one distance, a fixed count, a bare box.
+    /// The text to the letter, which names neither direction nor density nor count: one distance, a bare box.
     static MotionClusteringOptions thesis();
     void describe(ParameterVisitor& visitor);
 };

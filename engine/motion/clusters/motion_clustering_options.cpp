@@ -10,7 +10,7 @@ MotionClusteringOptions MotionClusteringOptions::thesis() {
     options.min_distance_px = 0;  // distances follow the GSD alone
     options.velocity_share = 0.1;
     options.velocity_noise_factor = 0;
-    options.min_members = 4;
+    options.min_members = 1;  // how many vectors an object has is asked by T_out alone
     options.min_density_share = 0;
     options.margin_px = 0;
     options.split_width_m = 0;

@@ -197,6 +197,13 @@ class Associator {
     FrameAssociation result_;
 };
 
+/// The heading that a vector suggests for its track's box; nothing when it is too slow to tell one.
+std::optional<double> suggestedHeading(const AssociatedVector& associated, const MotionVector& vector,
+                                       double slow_speed) {
+    if (std::hypot(vector.velocity.x, vector.velocity.y) < slow_speed) return std::nullopt;
+    return std::atan2(vector.velocity.y, vector.velocity.x) + associated.heading_offset;
+}
+
 double median(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
@@ -231,9 +238,8 @@ std::optional<Reconstruction> reconstructBox(const std::vector<AssociatedVector>
         const MotionVector& vector = frame.at(associated.index);
         vx.push_back(vector.velocity.x);
         vy.push_back(vector.velocity.y);
-        if (std::hypot(vector.velocity.x, vector.velocity.y) < slow_speed) continue;
-        const double suggested = std::atan2(vector.velocity.y, vector.velocity.x) + associated.heading_offset;
-        turns.push_back(turnBetween(predicted.heading, suggested));
+        const auto suggested = suggestedHeading(associated, vector, slow_speed);
+        if (suggested) turns.push_back(turnBetween(predicted.heading, *suggested));
     }
     result.velocity = {median(vx), median(vy)};
     if (2 * turns.size() > vectors.size()) {
@@ -257,6 +263,9 @@ std::optional<Reconstruction> reconstructBox(const std::vector<AssociatedVector>
         const MotionVector& vector = frame.at(associated.index);
         OrientedBox axes = result.box;
         axes.centre = {0, 0};
+        // To the letter each vector suggests a whole box, placed by its own heading.
+        if (size == RebuiltSize::stored)
+            axes.heading = suggestedHeading(associated, vector, slow_speed).value_or(axes.heading);
         return cv::Point2d(vector.position.x, vector.position.y) - axes.toImage(associated.in_box);
     };
     std::vector<double> x;

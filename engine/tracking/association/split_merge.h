@@ -73,9 +73,10 @@ struct Reconstruction {
 };
 
 /// The median of the boxes that a track's associated motion vectors suggest by their stored places (Teutsch §6.3, fig.
-/// 6.5), with the predicted size or the median of the stored ones. Nothing when fewer than `min_vectors` of them are in
-/// the frame and agree, that is, put the centre within `agreement` of the shorter side (or 1.5 px); 0: they need not
-/// agree.
+/// 6.5). `stored`: of centre, size and heading, each vector with its own heading; `predicted`: the size is kept, and
+/// all places are turned by the median heading. `slow_speed`: px/frame below which a vector tells no heading. Nothing
+/// when fewer than `min_vectors` of them are in the frame and agree, that is, put the centre within `agreement` of the
+/// shorter side (or 1.5 px); 0: they need not agree.
 std::optional<Reconstruction> reconstructBox(const std::vector<AssociatedVector>& vectors, const FrameVectors& frame,
                                              const OrientedBox& predicted, int min_vectors, double slow_speed,
                                              double agreement = 1.0 / 3, RebuiltSize size = RebuiltSize::predicted);

@@ -76,6 +76,33 @@ TEST(FinishingThresholds, JoinDistanceIsHowFarFromItsWayATrackMayGoOn) {
     EXPECT_TRUE(areJoined(2, 8, in_pixels));
 }
 
+TEST(FinishingThresholds, ExtendEntryIsHowLongAgoATrackMayHaveComeIn) {
+    // Seen from frame 15 on; half of it was in the image from frame 5 on, and less than that eleven frames before.
+    std::vector<TimedState> states;
+    for (int frame = 15; frame < 60; ++frame) {
+        states.push_back(driving(frame));
+        states.back().second.box.centre.x = 2.0 * (frame - 5);
+    }
+    EXPECT_EQ(finished(states, onlyWith("finishing.extend_entry", "0.48")).front().first, 5);
+    EXPECT_EQ(finished(states, onlyWith("finishing.extend_entry", "0.4")).front().first, 15) << "longer ago";
+    EXPECT_EQ(finished(states, onlyWith("finishing.extend_entry", "0")).front().first, 15);
+}
+
+TEST(FinishingThresholds, JoinPartsMakesOneVehicleOfFrontAndRear) {
+    std::vector<TimedState> states;
+    for (int frame = 0; frame < 40; ++frame) {
+        states.push_back(driving(frame));
+        states.back().second.box.length = 16;
+        states.push_back(driving(frame, 2));
+        states.back().second.box.length = 12;
+        states.back().second.box.centre.x -= 14;
+    }
+    const auto whole = finished(states, onlyWith("finishing.join_parts", "true"));
+    ASSERT_EQ(whole.size(), 40U);
+    for (const auto& [frame, state] : whole) EXPECT_NEAR(state.box.length, 28, 1e-3) << frame;
+    EXPECT_EQ(finished(states, onlyWith("finishing.join_parts", "false")).size(), 80U);
+}
+
 TEST(FinishingThresholds, SizeWindowIsHowMuchOfALifeHasASayInASize) {
     // 20 px long for two seconds, 26 px for four: seen from the beginning, half a window of four seconds is even.
     std::vector<TimedState> states;
