@@ -76,10 +76,17 @@ class TrackHalf {
 
  private:
     std::vector<MotionCluster> findClusters(const Frame& frame, const FrameMotion& motion);
+    /// What stacks offer for a cluster; nothing: it is searched in the raw image.
+    std::vector<MotionRoi> stackedAreas(const Frame& frame, const FrameMotion& motion, const MotionCluster& cluster,
+                                        int index) const;
+    /// The same of every cluster.
+    std::vector<std::vector<MotionRoi>> stackedAreas(const Frame& frame, const FrameMotion& motion,
+                                                     const std::vector<MotionCluster>& clusters) const;
     std::vector<MotionRoi> searchAreas(const Frame& frame, const FrameMotion& motion, const MotionCluster& cluster,
-                                       int index) const;
+                                       int index, std::vector<MotionRoi> stacked) const;
     std::vector<Detection> detect(const Frame& frame, const FrameMotion& motion,
-                                  const std::vector<MotionCluster>& clusters, std::vector<OrientedBox>& rois) const;
+                                  const std::vector<MotionCluster>& clusters,
+                                  std::vector<std::vector<MotionRoi>> stacked, std::vector<OrientedBox>& rois) const;
 
     ChainOptions options_;
     SceneScale scale_;

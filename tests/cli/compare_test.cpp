@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
@@ -139,10 +140,16 @@ TEST_F(Compare, PrintsWhatIsPublishedBeside) {
     as_json.push_back("--json");
     const auto json = nlohmann::json::parse(compare(as_json).output);
     EXPECT_EQ(json["results"].size(), 2U);
-    ASSERT_EQ(json["published"].size(), 14U);
-    EXPECT_EQ(json["published"][0]["name"], "clusters");
-    EXPECT_EQ(json["published"][0]["tp"], 6844);
-    EXPECT_TRUE(json["published"][7]["tp"].is_null()) << "Siam et al. give no counts";
+    std::map<std::string, nlohmann::json> by_table;
+    for (const auto& row : json["published"])
+        by_table[row["source"].get<std::string>() + ", " + row["name"].get<std::string>()] = row;
+    EXPECT_EQ(by_table.size(), json["published"].size());
+    EXPECT_EQ(by_table["table 7.6, clusters"]["tp"], 6844);
+    EXPECT_EQ(by_table["table 7.3, gradient_canny"]["n_modp"], .483);
+    EXPECT_EQ(by_table["table 7.8, sliding_window + stacking"]["fn"], 189);
+    const auto& siam = by_table["their paper, in table 7.7, Siam et al. 2012a"];
+    EXPECT_EQ(siam["precision"], .996);
+    EXPECT_TRUE(siam["tp"].is_null()) << "Siam et al. give no counts";
     EXPECT_EQ(compare({"--methods", "clusters", "--published", "m1303"}).exit_code, 2);
 }
 
@@ -159,17 +166,32 @@ TEST_F(Compare, SaysWhatIsWrong) {
 }
 
 TEST_F(Compare, BenchHasARowForEveryStageAndMethod) {
-    const auto result = test::runProcess({test::programPath("eyrie-cli"), "bench", "--input", at("clip"), "--gsd",
-                                          "0.2", "--frames", "10", "--corners", "600", "--json"});
+    const auto result =
+        test::runProcess({test::programPath("eyrie-cli"), "bench", "--input", at("clip"), "--gsd", "0.2", "--frames",
+                          "10", "--corners", "600", "--set", "stacking.enabled=true", "--json"});
     ASSERT_EQ(result.exit_code, 0) << result.errors;
     const auto json = nlohmann::json::parse(result.output);
     ASSERT_EQ(json["columns"].size(), 1U);
     EXPECT_GT(json["columns"][0]["stages"]["corners"]["median_ms"], 0);
     EXPECT_GT(json["columns"][0]["baseline_ms"], 0);
     std::vector<std::string> names;
-    for (const auto& method : json["methods"]) names.push_back(method["name"]);
+    for (const auto& method : json["methods"]) {
+        names.push_back(method["name"]);
+        EXPECT_GT(method["detection_ms"], 0) << method["name"];
+        EXPECT_GT(method["removal_ms"], 0) << method["name"];
+        // Stacks are a matter of the method's name, not of the parameters.
+        const bool stacked = names.back().find("+ stacking") != std::string::npos;
+        EXPECT_EQ(method["stacking_ms"] > 0, stacked) << method["name"];
+    }
     EXPECT_THAT(names, testing::IsSupersetOf(
                            {"clusters", "sliding_window", "mser", "three_frame_difference", "gradient + stacking"}));
+}
+
+TEST_F(Compare, BenchNeedsMoreFramesThanItIsToLeaveOut) {
+    const auto result = test::runProcess({test::programPath("eyrie-cli"), "bench", "--input", at("clip"), "--gsd",
+                                          "0.2", "--frames", "10", "--warm-up", "5000", "--corners", "600"});
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_THAT(result.errors, HasSubstr("more than 5000 frames are needed"));
 }
 
 }  // namespace eyrie::compare_test

@@ -31,6 +31,7 @@ struct BenchArguments {
     std::string input = "scene:seq1";
     double gsd_m_per_px = 0.345;
     int frames = 60;
+    int warm_up = 10;  ///< frames that nothing is learnt from: corners must age and tracks form first
     std::vector<int> corners{7000, 22000};
     PresetArguments preset;
     bool json = false;
@@ -58,9 +59,6 @@ struct Column {
     std::map<std::string, TimeSample> stages;
 };
 
-/// Frames that nothing is learnt from: corners must age and tracks form first.
-constexpr int kWarmUpFrames = 10;
-
 /// A project that is thrown away.
 class ScratchProject {
  public:
@@ -83,9 +81,9 @@ class ScratchProject {
     std::filesystem::path folder_;
 };
 
-std::vector<Frame> readFrames(FrameSource& source, int count, TimeSample& read) {
+std::vector<Frame> readFrames(FrameSource& source, const BenchArguments& arguments, TimeSample& read) {
     std::vector<Frame> frames;
-    const int available = std::min(count + kWarmUpFrames, source.info().frame_count);
+    const int available = std::min(arguments.frames + arguments.warm_up, source.info().frame_count);
     ConsoleProgress progress("frames read");
     const auto start = std::chrono::steady_clock::now();
     for (int i = 0; i < available; ++i) {
@@ -101,7 +99,8 @@ std::vector<Frame> readFrames(FrameSource& source, int count, TimeSample& read) 
     return frames;
 }
 
-Column measureChain(const std::vector<Frame>& frames, ChainOptions options, const SceneScale& scale, int corners) {
+Column measureChain(const std::vector<Frame>& frames, ChainOptions options, const SceneScale& scale, int warm_up,
+                    int corners) {
     setParameter(describeOf(options), "registration.max_corners", std::to_string(corners));
     setParameter(describeOf(options), "registration.corner_spacing", "0.1");
     Chain chain(options, scale);
@@ -122,7 +121,7 @@ Column measureChain(const std::vector<Frame>& frames, ChainOptions options, cons
                 const Stopwatch watch(result.stage_ms, Stage::store);
                 writer.write(result);
             }
-            if (frame.index < kWarmUpFrames) continue;
+            if (frame.index < warm_up) continue;
             double total = 0;
             for (int i = 0; i < kStageCount; ++i) {
                 const auto ms = static_cast<double>(result.stage_ms[static_cast<std::size_t>(i)]);
@@ -158,11 +157,11 @@ TimeSample measureBaseline(const std::vector<Frame>& frames, int corners) {
 }
 
 void printMethods(const std::vector<MethodTimes>& methods) {
-    std::printf("\n%-32s%10s%10s%10s%10s   ms per frame after the motion vectors\n", "method", "areas", "stacking",
-                "detection", "tracking");
+    std::printf("\n%-32s%10s%10s%10s%10s%10s   ms per frame after the motion vectors\n", "method", "areas", "stacking",
+                "detection", "removal", "tracking");
     for (const MethodTimes& method : methods) {
-        std::printf("%-32s%10.2f%10.2f%10.2f%10.2f\n", method.name.c_str(), method.areas_ms, method.stacking_ms,
-                    method.detection_ms, method.tracking_ms);
+        std::printf("%-32s%10.2f%10.2f%10.2f%10.2f%10.2f\n", method.name.c_str(), method.areas_ms, method.stacking_ms,
+                    method.detection_ms, method.removal_ms, method.tracking_ms);
     }
 }
 
@@ -235,6 +234,7 @@ void printJson(const std::vector<Column>& columns, const std::vector<TimeSample>
                                    {"areas_ms", method.areas_ms},
                                    {"stacking_ms", method.stacking_ms},
                                    {"detection_ms", method.detection_ms},
+                                   {"removal_ms", method.removal_ms},
                                    {"tracking_ms", method.tracking_ms}});
     }
     json["sweep"] = {
@@ -260,18 +260,18 @@ void bench(const BenchArguments& arguments) {
     scale.gsd_known = true;
     scale.frame_rate_hz = source->info().frame_rate_hz;
     TimeSample read;
-    const std::vector<Frame> frames = readFrames(*source, arguments.frames, read);
-    if (static_cast<int>(frames.size()) <= kWarmUpFrames) {
+    const std::vector<Frame> frames = readFrames(*source, arguments, read);
+    if (static_cast<int>(frames.size()) <= arguments.warm_up) {
         throw Error(ErrorKind::input, arguments.input + " is too short to measure: more than " +
-                                          std::to_string(kWarmUpFrames) + " frames are needed");
+                                          std::to_string(arguments.warm_up) + " frames are needed");
     }
     std::vector<Column> columns;
     std::vector<TimeSample> baseline;
     for (const int corners : arguments.corners) {
-        columns.push_back(measureChain(frames, options, scale, corners));
+        columns.push_back(measureChain(frames, options, scale, arguments.warm_up, corners));
         baseline.push_back(measureBaseline(frames, corners));
     }
-    const std::vector<MethodTimes> methods = measureMethods(frames, options, scale, kWarmUpFrames);
+    const std::vector<MethodTimes> methods = measureMethods(frames, options, scale, arguments.warm_up);
     const SweepTimes sweep = measureSweep(frames, options, scale);
     const ScratchProject scratch;
     const PreviewTimes preview = measurePreview(frames, options, scale, scratch.path());
@@ -294,6 +294,9 @@ void addBenchCommand(CLI::App& app, int&) {
     command->add_option("--gsd", arguments->gsd_m_per_px, "Ground sampling distance in metres per pixel")
         ->capture_default_str();
     command->add_option("--frames", arguments->frames, "Frames to measure")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 100000));
+    command->add_option("--warm-up", arguments->warm_up, "Frames before them that are not measured")
         ->capture_default_str()
         ->check(CLI::Range(1, 100000));
     command->add_option("--corners", arguments->corners, "Numbers of corners to measure at")

@@ -12,7 +12,7 @@ namespace {
 MethodTimes measure(const MethodVariant& variant, const std::vector<Frame>& frames,
                     const std::vector<FrameMotion>& motions, const SceneScale& scale, int warm_up) {
     TrackHalf half(variant.options, scale);
-    std::vector<double> areas, stacking, detection, tracking;
+    std::vector<double> areas, stacking, detection, removal, tracking;
     for (std::size_t i = 0; i < frames.size(); ++i) {
         const FrameResult result = half.next(frames[i], motions[i], {});
         if (static_cast<int>(i) < warm_up) continue;
@@ -21,10 +21,12 @@ MethodTimes measure(const MethodVariant& variant, const std::vector<Frame>& fram
         };
         areas.push_back(ms(Stage::clustering));
         stacking.push_back(ms(Stage::stacking));
-        detection.push_back(ms(Stage::detection) + ms(Stage::removal));
+        detection.push_back(ms(Stage::detection));
+        removal.push_back(ms(Stage::removal));
         tracking.push_back(ms(Stage::tracking));
     }
-    return {variant.name, medianOf(areas), medianOf(stacking), medianOf(detection), medianOf(tracking)};
+    return {variant.name,        medianOf(areas),   medianOf(stacking),
+            medianOf(detection), medianOf(removal), medianOf(tracking)};
 }
 
 }  // namespace
@@ -39,7 +41,8 @@ std::vector<MethodTimes> measureMethods(const std::vector<Frame>& frames, const 
     }
     std::vector<MethodVariant> variants;
     for (const char* group : {"detectors", "motion"}) {
-        for (const std::string& word : methodsNamed(group)) variants.push_back(methodVariant(word, options));
+        for (const std::string& word : methodsNamed(group))
+            variants.push_back(withStacking(methodVariant(word, options), false));
     }
     for (const char* word : {"gradient", "sliding_window", "window_and_gradient"}) {
         variants.push_back(withStacking(methodVariant(word, options), true));

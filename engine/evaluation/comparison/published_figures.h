@@ -9,11 +9,13 @@ namespace eyrie {
 /// T_ov of all published figures.
 inline constexpr double kPublishedOverlap = 0.1;
 
-/// What the thesis publishes about a method on one of its sequences (Teutsch §7.4, tables 7.6, 7.7, 7.9
-/// and 7.10). N-MODP and MOTP are mean overlaps.
+/// What the thesis publishes about a method on one of its sequences (Teutsch §7.3 and §7.4, tables 7.3 and 7.5
+/// to 7.10). N-MODP and MOTP are mean overlaps.
 struct PublishedFigures {
-    std::string method;  ///< as comparisons call it, "gradient + stacking + tracking"; or the authors of a paper
-    std::string source;  ///< "table 7.7", or "in their paper, after table 7.7"
+    /// As comparisons call it, "gradient + stacking + tracking", or the authors of a paper. A classifier other than
+    /// that of the other tables follows: "sliding_window_joint_11, hog + svm".
+    std::string method;
+    std::string source;  ///< "table 7.7", or "their paper, in table 7.7"; a method may stand in several tables
     std::optional<int> true_positives;
     std::optional<int> false_positives;
     std::optional<int> false_negatives;
