@@ -47,6 +47,23 @@ std::vector<StoryPoint> chosenAround(const std::vector<StoryPoint>& story, Frame
     return chosen;
 }
 
+ObjectStack stackOfTrack(const StoredTracks& run, TrackId track, FrameIndex around, const GrayFrames& gray,
+                         const std::stop_token& stop) {
+    const auto found =
+        std::find_if(run.tracks.begin(), run.tracks.end(), [&](const auto& one) { return one.id == track; });
+    if (found == run.tracks.end()) return {};
+    LabelledObject object;
+    for (const TrackedBox& box : found->boxes) {
+        Keyframe keyframe;
+        keyframe.frame = box.frame;
+        keyframe.box = box.box;
+        keyframe.heading_set = true;
+        object.keyframes.push_back(keyframe);
+    }
+    object.last_frame = found->boxes.back().frame;
+    return stackObject(object, around, run.footage.camera, gray, {}, stop);
+}
+
 cv::Mat chipOf(const cv::Mat& picture, cv::Point2d place, double side, int size) {
     if (picture.empty() || size < 1 || !(side > 0)) return {};
     const double scale = size / side;

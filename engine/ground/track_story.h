@@ -3,6 +3,7 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
+#include "annotation/pictures/object_stack.h"
 #include "events/event_options.h"
 #include "events/ground/ground_stretches.h"
 #include "events/stored_events.h"
@@ -29,6 +30,11 @@ std::vector<StoryPoint> storyOf(const StoredTracks& run, const GroundStretches& 
 /// after.
 std::vector<StoryPoint> chosenAround(const std::vector<StoryPoint>& story, FrameIndex around, double before_s,
                                      double after_s, int most);
+
+/// A vehicle as it looks over the frames around one, noise averaged away, heading to the right (Teutsch §5.3); without
+/// a picture where too few of its frames can be read, or it is not to be seen in that frame.
+ObjectStack stackOfTrack(const StoredTracks& run, TrackId track, FrameIndex around, const GrayFrames& gray,
+                         const std::stop_token& stop = {});
 
 /// The surroundings of a place as filmed, `side` px of the picture made `size` px; black beyond the border.
 cv::Mat chipOf(const cv::Mat& picture, cv::Point2d place, double side, int size);

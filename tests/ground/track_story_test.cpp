@@ -79,6 +79,35 @@ TEST(TrackStory, FramesAroundAMomentAreSpreadEvenly) {
     EXPECT_TRUE(chosenAround(story, 3, 1, 1, 0).empty());
 }
 
+TEST(TrackStory, AStackShowsTheVehicleWithLessNoise) {
+    constexpr int kFrames = 40;
+    StoredTracks run;
+    run.footage.image_size = {200, 100};
+    run.footage.last_frame = kFrames - 1;
+    EventTrack track;
+    track.id = 3;
+    for (int frame = 0; frame < kFrames; ++frame) track.boxes.push_back({frame, {{40.0 + 2 * frame, 50}, 24, 12, 0}});
+    run.tracks.push_back(track);
+    const GrayFrames gray = [&](FrameIndex frame) {
+        cv::Mat picture(100, 200, CV_8UC1, cv::Scalar(90)), noise(100, 200, CV_8UC1);
+        picture(cv::Rect(28 + 2 * frame, 44, 25, 13)).setTo(200);
+        cv::RNG random(static_cast<std::uint64_t>(frame) + 7);
+        random.fill(noise, cv::RNG::UNIFORM, 0, 50);
+        return cv::Mat(picture + noise);
+    };
+    const ObjectStack stack = stackOfTrack(run, 3, 20, gray);
+    ASSERT_FALSE(stack.stacked.empty());
+    EXPECT_EQ(stack.layers, 25);
+    const cv::Rect middle(stack.stacked.cols / 2 - 8, stack.stacked.rows / 2 - 4, 16, 8);
+    cv::Scalar mean, deviation;
+    cv::meanStdDev(stack.stacked(middle), mean, deviation);
+    EXPECT_NEAR(mean[0], 225, 8) << "the vehicle lies in the middle";
+    EXPECT_LT(deviation[0], 7) << "one frame has 14";
+    EXPECT_LT(stack.stacked.at<unsigned char>(2, 2), 150) << "and ground around it";
+    EXPECT_TRUE(stackOfTrack(run, 9, 20, gray).stacked.empty());
+    EXPECT_TRUE(stackOfTrack(run, 3, kFrames, gray).stacked.empty());
+}
+
 TEST(TrackStory, AChipShowsThePlaceInItsMiddle) {
     cv::Mat picture = cv::Mat::zeros(100, 100, CV_8UC1);
     picture.at<uchar>(30, 70) = 200;

@@ -84,6 +84,15 @@ class StoryLoaderTest : public QObject {
         QTRY_COMPARE_WITH_TIMEOUT(open_->load(), 0, kPatience_ms);
     }
 
+    void theVehicleIsStackedOverManyFrames() {
+        StoryLoader loader([this](const auto& story) { story_ = story; });
+        story_.reset();
+        loader.ask(wish(kStoryFrames));
+        QTRY_VERIFY_WITH_TIMEOUT(story_ && !story_->stack.isNull(), kPatience_ms);
+        QCOMPARE(story_->chips.size(), std::size_t(24));
+        QVERIFY2(story_->stack.width() > story_->stack.height(), "it heads to the right and is longer than wide");
+    }
+
     void framesThatCannotBeReadCostTheirOwnChipsOnly() {
         StoryLoader loader([this](const auto& story) { story_ = story; });
         story_.reset();

@@ -5,6 +5,7 @@
 #include <QLineEdit>
 #include <QPixmap>
 #include <QStackedLayout>
+#include <QVBoxLayout>
 
 #include "review/card/story_sketch.h"
 #include "widgets/empty_state.h"
@@ -26,6 +27,11 @@ EventCard::EventCard(QWidget* parent) : QWidget(parent), loop_(kChipPeriod_ms, [
     picture_ = new QLabel;
     picture_->setFixedSize(StoryLoader::kChipSize, StoryLoader::kChipSize);
     picture_->setAccessibleName(tr("The vehicle, two seconds before to two after"));
+    stacked_ = new QLabel;
+    stacked_->setAlignment(Qt::AlignCenter);
+    stacked_->setToolTip(tr("The vehicle over some 25 frames laid on one another, heading to the right"));
+    stacked_->setAccessibleName(stacked_->toolTip());
+    stacked_->hide();
     speed_ = new StorySketch(StorySketch::Kind::speed);
     speed_->setMaximumHeight(kSpeedLines * fontMetrics().lineSpacing());
     way_ = new StorySketch(StorySketch::Kind::way);
@@ -42,7 +48,11 @@ EventCard::EventCard(QWidget* parent) : QWidget(parent), loop_(kChipPeriod_ms, [
     grid->setContentsMargins(6, 6, 6, 6);
     grid->setSpacing(6);
     grid->addWidget(title_, 0, 0, 1, 2);
-    grid->addWidget(picture_, 1, 0, Qt::AlignTop);
+    auto* pictures = new QVBoxLayout;
+    pictures->addWidget(picture_);
+    pictures->addWidget(stacked_);
+    pictures->addStretch();
+    grid->addLayout(pictures, 1, 0);
     grid->addWidget(way_, 1, 1);
     grid->addWidget(speed_, 2, 0, 1, 2);
     grid->addWidget(note_, 3, 0, 1, 2);
@@ -92,7 +102,14 @@ void EventCard::setStory(const std::shared_ptr<const VehicleStory>& story, const
     story_ = story;
     speed_->setPoints(story ? story->points : std::vector<StoryPoint>(), scale);
     way_->setPoints(story ? story->points : std::vector<StoryPoint>(), scale);
-    chip_ = 0;
+    // The loop goes on where only the stack has come.
+    if (!story_ || chip_ >= story_->chips.size()) chip_ = 0;
+    const bool has_stack = story_ && !story_->stack.isNull();
+    if (has_stack)
+        stacked_->setPixmap(QPixmap::fromImage(story_->stack)
+                                .scaled(StoryLoader::kChipSize, StoryLoader::kChipSize / 2, Qt::KeepAspectRatio,
+                                        Qt::SmoothTransformation));
+    stacked_->setVisible(has_stack);
     if (!story_ || story_->chips.empty()) picture_->setPixmap({});
 }
 

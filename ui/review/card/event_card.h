@@ -34,8 +34,8 @@ struct CardCommands {
     std::function<void(int event, const QString& tags)> write_tags = [](int, const QString&) {};
 };
 
-/// One event, or track, at a glance: its vehicle in a loop, how fast it was, which way it drove, and note and tags on
-/// it.
+/// One event, or track, at a glance: its vehicle in a loop and stacked, how fast it was, which way it drove, and note
+/// and tags on it.
 class EventCard : public QWidget {
     Q_OBJECT
 
@@ -55,6 +55,7 @@ class EventCard : public QWidget {
     const std::shared_ptr<const VehicleStory>& story() const { return story_; }
     StorySketch& speed() { return *speed_; }
     StorySketch& way() { return *way_; }
+    QLabel& stacked() { return *stacked_; }
     QLineEdit& note() { return *note_; }
     QLineEdit& tags() { return *tags_; }
     /// The number of the chip shown; it goes on by itself.
@@ -74,6 +75,7 @@ class EventCard : public QWidget {
     QStackedLayout* stack_;
     QLabel* title_;
     QLabel* picture_;
+    QLabel* stacked_;
     StorySketch* speed_;
     StorySketch* way_;
     QLineEdit* note_;

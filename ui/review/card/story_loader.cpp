@@ -65,7 +65,13 @@ void StoryLoader::ask(const StoryWish& wish) {
             if (task.stop().stop_requested()) return;
             story->shown.resize(story->chips.size());
         }
-        task.tell([this, story = std::shared_ptr<const VehicleStory>(story)] { came_(story); });
+        task.tell([this, shown = std::make_shared<const VehicleStory>(*story)] { came_(shown); });
+        if (!opened->source) return;
+        const ObjectStack stack =
+            stackOfTrack(*wish.ground->run, wish.track, wish.frame, grayReader(*opened->source), task.stop());
+        if (stack.stacked.empty() || task.stop().stop_requested()) return;
+        story->stack = imageForDisplay(stack.stacked);
+        task.tell([this, shown = std::make_shared<const VehicleStory>(*story)] { came_(shown); });
     });
 }
 

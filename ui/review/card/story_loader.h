@@ -32,6 +32,7 @@ struct VehicleStory {
     std::vector<StoryPoint> points;  ///< of the whole drive on this ground
     std::vector<StoryPoint> shown;   ///< those that have a chip, or get one
     std::vector<QImage> chips;       ///< of these in their order; none while they come
+    QImage stack;                    ///< the vehicle over many frames, heading to the right; none while it comes
 };
 
 /// Reads the story of a vehicle and its chips, in the background; of several wishes the newest counts. Keeps the video
@@ -45,7 +46,7 @@ class StoryLoader {
     explicit StoryLoader(Came came);
     ~StoryLoader();
 
-    /// Answered twice: without chips, then with them.
+    /// Answered three times: without pictures, with chips, and with the stack, too, where there can be one.
     void ask(const StoryWish& wish);
     void cancel();
     /// The same; and lets the video go.
