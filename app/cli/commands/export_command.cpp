@@ -22,6 +22,7 @@
 #include "exchange/vmti_export.h"
 #include "store/database/snapshot.h"
 #include "store/labels/annotation_store.h"
+#include "store/project/video_start.h"
 #include "store/review/control_points.h"
 
 namespace eyrie::cli {
@@ -103,8 +104,9 @@ void exportVmti(const ExportArguments& arguments, ProjectFile& project, const Ru
     const InterruptGuard interrupt;
     const auto video = openInput(run.sequence.path, 0, interrupt.token(), run.sequence.frame_rate_hz);
     LabelStream labels = labelStreamOf(store, run, corrected);
-    labels.about.world = trackWorldOf(store, run, video.get(), startOf(arguments.start), interrupt.token(),
-                                      readControlPoints(project, run.sequence.id));
+    labels.about.world =
+        trackWorldOf(store, run, video.get(), videoStartOf(project, run.sequence.id, startOf(arguments.start)),
+                     interrupt.token(), readControlPoints(project, run.sequence.id));
     const VmtiReport report = writeVmti(labels, *video, arguments.out, {}, interrupt.token());
     std::printf("%s: a copy of %s with %d VMTI sets of %d targets\n", arguments.out.c_str(), run.sequence.path.c_str(),
                 report.frames, report.targets);
@@ -137,8 +139,9 @@ void exportRun(const ExportArguments& arguments, ProjectFile& project) {
             // Boxes can be written without it; what needs times or places on the earth says so.
             if (interrupt.token().stop_requested()) throw;
         }
-        labels.about.world = trackWorldOf(store, run, pixels.get(), startOf(arguments.start), interrupt.token(),
-                                          readControlPoints(project, run.sequence.id));
+        labels.about.world =
+            trackWorldOf(store, run, pixels.get(), videoStartOf(project, run.sequence.id, startOf(arguments.start)),
+                         interrupt.token(), readControlPoints(project, run.sequence.id));
     }
     writeAndTell(arguments, labels, labels.about, run.sequence.path);
 }
