@@ -32,6 +32,9 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
     save_copy = add(tr("Save a &copy…"), {"document-save", {}, QT_TR_NOOP("Save a copy, and go on working here")});
     restore_state = add(tr("Restore an &earlier state…"),
                         {"document-revert", {}, QT_TR_NOOP("What the project held on earlier days")});
+    start_time =
+        add(tr("Start &time…"),
+            {nullptr, {}, QT_TR_NOOP("When the video was taken, so that clock times stand beside its frames")});
     report = add(tr("Evaluation &report…"), {"document-export",
                                              {QKeySequence(tr("Ctrl+Shift+R"))},
                                              QT_TR_NOOP("Write the evaluation as one HTML or PDF file")});
