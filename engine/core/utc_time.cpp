@@ -76,6 +76,12 @@ std::string utcTextToMilliseconds(std::int64_t utc_us) {
     return isoText(utc_us, 3);
 }
 
+std::string timeOfDayText(std::int64_t utc_us, int decimals) {
+    constexpr std::size_t kDate = 11;  // characters, with the "T"
+    const std::string text = isoText(utc_us, std::clamp(decimals, 0, 6));
+    return text.empty() ? text : text.substr(kDate, text.size() - kDate - 1);
+}
+
 std::optional<std::int64_t> utcOf(std::string_view text) {
     using namespace std::chrono;
     const auto y = takeDigits(text, 4, '-');

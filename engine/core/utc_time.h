@@ -19,6 +19,10 @@ std::string utcText(std::int64_t utc_us);
 /// The same to the millisecond, for people; what is finer is cut off.
 std::string utcTextToMilliseconds(std::int64_t utc_us);
 
+/// The time of the day alone, for people: "22:08:22", or with so many decimals of the seconds, 0 to 6; what is finer is
+/// cut off.
+std::string timeOfDayText(std::int64_t utc_us, int decimals = 0);
+
 /// µs since 1970-01-01 of a text as above, with up to six decimals of the seconds or none, also with a blank for the
 /// "T" and without the "Z"; nothing for other texts and for moments that no calendar has.
 std::optional<std::int64_t> utcOf(std::string_view text);

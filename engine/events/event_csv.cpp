@@ -21,10 +21,10 @@ std::string verdictFields(const Verdict* verdict) {
 
 void writeEventCsv(const std::filesystem::path& path, const std::vector<Event>& events, const FrameClock& clock,
                    const std::vector<const Verdict*>& verdicts, const std::vector<int>& numbers,
-                   const std::vector<std::string>& makers) {
+                   const std::vector<std::string>& makers, const FrameMoment& moment) {
     std::string text =
         "kind,first_frame,last_frame,start_s,end_s,clock,tracks,figure,unit,zone,sense,frame,x,y,ground_frame,"
-        "ground_x,ground_y,verdict,note,tags,starred,person,when_utc,by,number\n";
+        "ground_x,ground_y,verdict,note,tags,starred,person,when_utc,by,number,utc\n";
     for (std::size_t i = 0; i < events.size(); ++i) {
         const Event& event = events[i];
         std::string tracks;
@@ -39,7 +39,8 @@ void writeEventCsv(const std::filesystem::path& path, const std::vector<Event>& 
                 std::to_string(event.ground_frame) + ',' + fixedText(event.ground.x, 2) + ',' +
                 fixedText(event.ground.y, 2) + verdictFields(verdicts.empty() ? nullptr : verdicts.at(i)) + ',' +
                 (makers.empty() ? makerText(std::nullopt) : makers.at(i)) + ',' +
-                std::to_string(numbers.empty() ? static_cast<int>(i) + 1 : numbers.at(i)) + '\n';
+                std::to_string(numbers.empty() ? static_cast<int>(i) + 1 : numbers.at(i)) + ',' +
+                (moment ? moment(event.first_frame) : "") + '\n';
     }
     writeFileAtomically(path, text);
 }

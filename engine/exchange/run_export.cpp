@@ -4,6 +4,7 @@
 
 #include "exchange/project_world.h"
 #include "formats/label_formats.h"
+#include "store/project/video_start.h"
 #include "store/review/control_points.h"
 
 namespace eyrie {
@@ -17,8 +18,9 @@ bool tellsWorld(const std::string& format) {
 
 void addWorld(LabelStream& labels, ProjectFile& project, const RunRecord& run, const FrameSource* pixels,
               std::optional<std::int64_t> start_utc_us, const std::stop_token& stop) {
+    const auto start = videoStartOf(project, run.sequence.id, start_utc_us);
     labels.about.world =
-        trackWorldOf(RunStore(project), run, pixels, start_utc_us, stop, readControlPoints(project, run.sequence.id));
+        trackWorldOf(RunStore(project), run, pixels, start, stop, readControlPoints(project, run.sequence.id));
 }
 
 }  // namespace eyrie

@@ -21,7 +21,8 @@ inline constexpr char kVmtiFormat[] = "vmti";
 bool tellsWorld(const std::string& format);
 
 /// Gives the tracks of a run times and places as the project and the video know them. `pixels` may be null, `labels` is
-/// of `run`. Throws Error(project).
+/// of `run`. `start_utc_us`: when the video began, if a person says so now; else what the project keeps counts. Throws
+/// Error(project).
 void addWorld(LabelStream& labels, ProjectFile& project, const RunRecord& run, const FrameSource* pixels,
               std::optional<std::int64_t> start_utc_us = {}, const std::stop_token& stop = {});
 

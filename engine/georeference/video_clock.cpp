@@ -96,6 +96,28 @@ VideoClock VideoClock::ofParts(const std::vector<VideoPart>& parts, std::shared_
     return clock;
 }
 
+VideoClock VideoClock::byFiles(const FoundMetadata& found) {
+    VideoClock clock;
+    std::optional<std::int64_t> known = found.parts.empty() ? found.created_utc_us : std::nullopt;
+    if (known) clock.stretches_.push_back({0, known});
+    for (const VideoPart& part : found.parts) {
+        // Files tell it to the second, and recorders that cut a flight into files give all of them one time.
+        constexpr std::int64_t kGap_us = 1'000'000;
+        if (part.created_utc_us && (!known || *part.created_utc_us > *known + part.first_time_us + kGap_us))
+            known = *part.created_utc_us - part.first_time_us;
+        clock.silent_parts_ += part.created_utc_us ? 0 : 1;
+        if (known) clock.stretches_.push_back({part.first_time_us, known});
+    }
+    if (clock.stretches_.empty()) return {};
+    clock.source_ = Source::file;
+    return clock;
+}
+
+VideoClock VideoClock::of(const FoundMetadata& found, std::optional<std::int64_t> given_us) {
+    VideoClock clock = ofParts(found.parts, found.metadata, given_us);
+    return clock.source_ == Source::none ? byFiles(found) : clock;
+}
+
 std::optional<std::int64_t> VideoClock::at(std::int64_t video_us) const {
     if (stretches_.empty()) return std::nullopt;
     const auto next = std::upper_bound(stretches_.begin(), stretches_.end(), video_us,
@@ -113,6 +135,9 @@ std::string VideoClock::origin() const {
             break;
         case Source::metadata:
             text = "the video's metadata";
+            break;
+        case Source::file:
+            text = "the file's creation time";
             break;
         case Source::none:
             return "";

@@ -13,7 +13,8 @@ namespace eyrie {
 /// What time it was when a moment of a video was taken.
 class VideoClock {
  public:
-    enum class Source { none, given, metadata };
+    /// Of what counts before what: a person, the metadata, when the file was begun.
+    enum class Source { none, given, metadata, file };
 
     /// Knows no time.
     VideoClock() = default;
@@ -30,10 +31,15 @@ class VideoClock {
     static VideoClock ofParts(const std::vector<VideoPart>& parts, std::shared_ptr<const VideoMetadata> metadata,
                               std::optional<std::int64_t> given_us);
 
+    /// Of a video by all that is known: as above, and where neither a person nor the metadata tell anything, it began
+    /// when its file did, or each part when its own did.
+    static VideoClock of(const FoundMetadata& found, std::optional<std::int64_t> given_us);
+
     Source source() const { return source_; }
     /// Of `video_us` from the beginning of the video; nothing where it is not known.
     std::optional<std::int64_t> at(std::int64_t video_us) const;
-    /// For people: "the start time given", "the video's metadata"; with what is odd about it.
+    /// For people: "the start time given", "the video's metadata", "the file's creation time"; with what is odd about
+    /// it.
     std::string origin() const;
 
  private:
@@ -46,6 +52,7 @@ class VideoClock {
     /// `part`: of whose sets; none: of all.
     static std::optional<Stretch> stretchBy(const VideoMetadata& metadata, std::int64_t from_us,
                                             std::optional<int> part, int& odd_stamps);
+    static VideoClock byFiles(const FoundMetadata& found);
 
     Source source_ = Source::none;
     std::vector<Stretch> stretches_;                 ///< ascending

@@ -32,7 +32,8 @@ struct FoundMetadata {
     std::string why_not;                            ///< for people: "the video carries no metadata (KLV)"
     /// All streams of metadata, `metadata` among them; also those in which no set could be read.
     std::vector<std::shared_ptr<const VideoMetadata>> streams = {};
-    std::vector<VideoPart> parts = {};  ///< of the video; none where it is one file
+    std::vector<VideoPart> parts = {};                ///< of the video; none where it is one file
+    std::optional<std::int64_t> created_utc_us = {};  ///< VideoInfo::created_utc_us
 };
 
 /// Reads the metadata beside the pictures of `source`. Never throws for what is wrong with them: a video is to be

@@ -17,7 +17,7 @@ VideoWorld videoWorldOf(const FrameSource* pixels, GeoFootage footage, std::opti
 VideoWorld videoWorldOf(const FoundMetadata& found, GeoFootage footage, std::optional<std::int64_t> start_utc_us) {
     VideoWorld world;
     world.metadata = found.metadata;
-    world.clock = VideoClock::ofParts(found.parts, found.metadata, start_utc_us);
+    world.clock = VideoClock::of(found, start_utc_us);
     if (world.clock.source() == VideoClock::Source::none)
         world.no_clock = found.metadata ? "its metadata (KLV) hold no time" : found.why_not;
     world.places = GeoReference::byControl(footage, &world.control_remarks);

@@ -25,7 +25,7 @@ struct VideoWorld {
 
 /// `pixels` is the video, or null where it cannot be read: then there are no metadata. `footage`: what a run registered
 /// of it; its times are those of `pixels`. `start_utc_us`: when the video began, µs since 1970-01-01, if a person says
-/// so; else the metadata say it. Never throws for what is wrong with the metadata.
+/// so; else the metadata say it, else the file. Never throws for what is wrong with the metadata.
 VideoWorld videoWorldOf(const FrameSource* pixels, GeoFootage footage, std::optional<std::int64_t> start_utc_us = {},
                         const std::stop_token& stop = {});
 

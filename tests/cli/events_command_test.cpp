@@ -4,7 +4,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/utc_time.h"
 #include "store/project/project_file.h"
+#include "store/project/video_start.h"
 #include "store/review/review_store.h"
 #include "store/runs/result_writer.h"
 #include "store/runs/run_store.h"
@@ -244,9 +246,27 @@ TEST_F(EventsCommand, VerdictsAreShownWithWhoSaidSoAndWhen) {
                                      Not(HasSubstr("could not be carried over"))));
     const std::string table = textOf("e.csv");
     EXPECT_THAT(table,
-                HasSubstr(",ground_frame,ground_x,ground_y,verdict,note,tags,starred,person,when_utc,by,number\n"));
-    EXPECT_THAT(table, HasSubstr(",relevant,\"at the gate, lights on\",lorry,1,Ada,2026-11-21T08:00:00Z,machine,2\n"));
-    EXPECT_THAT(table, HasSubstr(",,,,,,machine,1\nst")) << "nobody said anything about the first one";
+                HasSubstr(",ground_frame,ground_x,ground_y,verdict,note,tags,starred,person,when_utc,by,number,utc\n"));
+    EXPECT_THAT(table, HasSubstr(",relevant,\"at the gate, lights on\",lorry,1,Ada,2026-11-21T08:00:00Z,machine,2,\n"));
+    EXPECT_THAT(table, HasSubstr(",,,,,,machine,1,\nst")) << "nobody said anything about the first one";
+}
+
+TEST_F(EventsCommand, ClockTimesCountFromTheStartThatIsKeptOrGiven) {
+    EXPECT_THAT(call({"--project", "@p.eyrie"}).output, Not(HasSubstr(" utc ")));
+    {
+        ProjectFile project = ProjectFile::open(folder_ / "p.eyrie");
+        storeVideoStart(project, 1, utcOf("2026-11-21T08:00:00Z"));
+    }
+    const auto kept = call({"--project", "@p.eyrie", "--csv", "@e.csv"});
+    EXPECT_EQ(kept.exit_code, 0) << kept.errors;
+    EXPECT_THAT(kept.output, AllOf(HasSubstr(" utc "), HasSubstr(" 2026-11-21T08:00:")));
+    EXPECT_THAT(textOf("e.csv"), HasSubstr(",2026-11-21T08:00:"));
+    const auto given = call({"--project", "@p.eyrie", "--csv", "@e.csv", "--start", "2009-01-12T22:08:22Z", "--force"});
+    EXPECT_EQ(given.exit_code, 0) << given.errors;
+    EXPECT_THAT(textOf("e.csv"), AllOf(HasSubstr(",2009-01-12T22:08:"), Not(HasSubstr("2026-11-21T08:00:"))));
+    const auto wrong = call({"--project", "@p.eyrie", "--start", "noon"});
+    EXPECT_EQ(wrong.exit_code, 2);
+    EXPECT_THAT(wrong.errors, HasSubstr("UTC"));
 }
 
 TEST_F(EventsCommand, EventsCanBeChosenByTheirVerdict) {

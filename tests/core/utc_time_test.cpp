@@ -24,6 +24,13 @@ TEST(UtcTime, WhatHasNoFourDigitsOfYearHasNoText) {
     }
 }
 
+TEST(UtcTime, TheTimeOfTheDayStandsAlone) {
+    EXPECT_EQ(timeOfDayText(1'231'798'102'999'999), "22:08:22") << "cut off, as clocks do";
+    EXPECT_EQ(timeOfDayText(1'231'798'102'540'000, 2), "22:08:22.54");
+    EXPECT_EQ(timeOfDayText(0), "00:00:00");
+    EXPECT_EQ(timeOfDayText(std::numeric_limits<std::int64_t>::max()), "");
+}
+
 TEST(UtcTime, TextsAreReadBack) {
     for (const std::int64_t us : {0LL, 1'231'798'102'034'567LL, -86'400'000'001LL, 4'107'542'400'000'000LL})
         EXPECT_EQ(utcOf(utcText(us)), us) << us;

@@ -134,6 +134,40 @@ TEST(VideoClock, aStartThatIsGivenMovesAllPartsTogether) {
     EXPECT_EQ(VideoClock::ofParts({}, nullptr, kBegin_us).at(5), kBegin_us + 5) << "a video of one file";
 }
 
+TEST(VideoClock, aPersonCountsBeforeTheMetadataAndTheseBeforeTheFile) {
+    const std::int64_t made_us = kBegin_us + 3'600'000'000;
+    FoundMetadata found;
+    EXPECT_EQ(VideoClock::of(found, std::nullopt).source(), VideoClock::Source::none);
+    found.created_utc_us = made_us;
+    const auto by_file = VideoClock::of(found, std::nullopt);
+    EXPECT_EQ(by_file.source(), VideoClock::Source::file);
+    EXPECT_EQ(by_file.at(250'000), made_us + 250'000);
+    EXPECT_EQ(by_file.origin(), "the file's creation time");
+    found.metadata = stamped([](int i) { return static_cast<std::uint64_t>(kBegin_us + i * 100'000); });
+    const auto by_metadata = VideoClock::of(found, std::nullopt);
+    EXPECT_EQ(by_metadata.source(), VideoClock::Source::metadata);
+    EXPECT_EQ(by_metadata.at(0), kBegin_us);
+    const auto by_person = VideoClock::of(found, kBegin_us + 7);
+    EXPECT_EQ(by_person.source(), VideoClock::Source::given);
+    EXPECT_EQ(by_person.at(0), kBegin_us + 7);
+    EXPECT_EQ(by_person.origin(), "the start time given");
+}
+
+TEST(VideoClock, everyPartBeginsWhenItsFileDidUnlessThatWasBefore) {
+    FoundMetadata found;
+    found.parts = threeParts();
+    found.parts[0].created_utc_us = found.parts[1].created_utc_us = kBegin_us;
+    found.parts[2].created_utc_us = kBegin_us + 60'000'000;
+    const auto clock = VideoClock::of(found, std::nullopt);
+    EXPECT_EQ(clock.source(), VideoClock::Source::file);
+    EXPECT_EQ(clock.at(1'500'000), kBegin_us + 1'500'000) << "one time for both: the second goes on";
+    EXPECT_EQ(clock.at(2'000'000), kBegin_us + 60'000'000);
+    EXPECT_EQ(clock.origin(), "the file's creation time");
+    found.parts[0].start_utc_us = kBegin_us - 5'000'000;
+    EXPECT_EQ(VideoClock::of(found, std::nullopt).source(), VideoClock::Source::given) << "a list says it";
+    EXPECT_EQ(VideoClock::of(found, std::nullopt).at(2'000'000), kBegin_us - 3'000'000);
+}
+
 TEST(VideoClock, aPartWhoseClockJumpsHasTheTimesOfItsMoments) {
     const auto metadata = stamped(
         [](int i) {

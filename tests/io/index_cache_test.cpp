@@ -51,6 +51,32 @@ TEST_F(IndexCacheTest, EveryDamageLeadsToANewRecord) {
     }
 }
 
+TEST_F(IndexCacheTest, WhenTheFileWasBegunIsKnownAtOnceAndLater) {
+    EXPECT_EQ(openSource(video_, options_)->info().created_utc_us, std::nullopt);
+    const std::string whole = test::bytesOf(video_);
+    const std::size_t header = whole.find("mvhd");
+    ASSERT_NE(header, std::string::npos);
+    constexpr std::uint32_t kEpoch_s = 2'082'844'800;  // from 1904 to 1970
+    const auto begunAt = [&](std::uint32_t seconds_since_1904) {
+        std::string dated = whole;
+        for (int byte = 0; byte < 4; ++byte)
+            dated[header + 8 + static_cast<std::size_t>(byte)] =
+                static_cast<char>((seconds_since_1904 >> (24 - 8 * byte)) & 0xFF);
+        std::filesystem::remove(record());
+        test::writeBytes(video_, dated);
+        const auto first = openSource(video_, options_)->info().created_utc_us;
+        bool indexed = false;
+        const auto again = openSource(video_, options_, [&](double) { indexed = true; });
+        EXPECT_FALSE(indexed);
+        EXPECT_EQ(again->info().created_utc_us, first);
+        return first;
+    };
+    EXPECT_EQ(begunAt(kEpoch_s + 1'231'798'102), 1'231'798'102'000'000);
+    EXPECT_EQ(begunAt(60), std::nullopt) << "a clock that began in 1904 with the camera";
+    EXPECT_EQ(begunAt(kEpoch_s + 3'600), std::nullopt) << "1970";
+    EXPECT_EQ(begunAt(kEpoch_s + 315'964'800), std::nullopt) << "1980, where GPS begins";
+}
+
 TEST_F(IndexCacheTest, AChangedVideoIsIndexedAgain) {
     indexes();
     test::writeNumberedVideo(video_, 25);

@@ -6,6 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "core/error.h"
+#include "store/project/video_start.h"
 #include "store/review/review_store.h"
 #include "store/review/seen_store.h"
 #include "store/runs/result_writer.h"
@@ -116,6 +117,16 @@ class ReviewReport : public testing::Test {
 };
 
 }  // namespace
+
+TEST_F(ReviewReport, ClockTimesCountFromTheStartThatTheProjectKeeps) {
+    writeRun(true);
+    {
+        ProjectFile project = ProjectFile::open(path_);
+        storeVideoStart(project, 1, 1'231'798'102'000'000);
+    }
+    EXPECT_EQ(gather().clock.at(40'000), 1'231'798'102'040'000);
+    EXPECT_EQ(gather({}, 5).clock.at(0), 5) << "what is said now counts";
+}
 
 TEST_F(ReviewReport, TellsTheChosenEventsWithAllThatIsKnownOfThem) {
     writeRun(true);

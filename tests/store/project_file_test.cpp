@@ -142,6 +142,7 @@ TEST_F(ProjectFileTest, AnOlderProjectIsBroughtUpToDateEvenForReading) {
                   "DROP VIEW v_runs",
                   "ALTER TABLE run DROP COLUMN rate_assumed",
                   "ALTER TABLE sequence DROP COLUMN rate_assumed",
+                  "ALTER TABLE sequence DROP COLUMN start_utc",
                   "ALTER TABLE run DROP COLUMN scale_growth_right",
                   "ALTER TABLE run DROP COLUMN scale_growth_down",
                   "ALTER TABLE detection DROP COLUMN probability",
@@ -385,6 +386,7 @@ TEST_F(ProjectFileTest, StatesOfBeforeSchemaTwentyAreReadAsTheyWere) {
         "origin END";
     makeDatabase({whole_words, "DROP VIEW v_track_states", "DROP VIEW v_tracks", "ALTER TABLE track DROP COLUMN score",
                   "ALTER TABLE track DROP COLUMN x_sum", "ALTER TABLE track DROP COLUMN y_sum",
+                  "ALTER TABLE sequence DROP COLUMN start_utc",
                   "CREATE INDEX track_state_of_track ON track_state (run_id, track_id, frame)",
                   "PRAGMA user_version = 19"});
     ProjectFile project = ProjectFile::open(path_);

@@ -1,5 +1,7 @@
 #include "review/tracks_model.h"
 
+#include <utility>
+
 #include "widgets/display_text.h"
 #include "widgets/tables/table_roles.h"
 
@@ -18,6 +20,28 @@ void TracksModel::setLikeness(std::shared_ptr<const LikenessByTrack> likeness) {
     if (rowCount() > 0) emit dataChanged(index(0, like_column), index(rowCount() - 1, like_column));
 }
 
+void TracksModel::setClock(ClockOfFrames clock) {
+    clock_ = std::move(clock);
+    emit headerDataChanged(Qt::Horizontal, first_column, last_column);
+    if (rowCount() > 0) emit dataChanged(index(0, first_column), index(rowCount() - 1, last_column));
+}
+
+QString TracksModel::timeOf(FrameIndex frame) const {
+    const QString time = clock_.time(frame);
+    return time.isEmpty() ? QString::number(frame) : time;
+}
+
+QString TracksModel::tipOf(const TrackSummary& track) const {
+    const QString tip = tr("Track %1%2: frames %3 to %4, %5 states. Click to go to its first frame.")
+                            .arg(QString::number(track.id),
+                                 track.corrected ? QStringLiteral(" (%1)").arg(shownName(*track.corrected)) : QString())
+                            .arg(track.first_frame)
+                            .arg(track.last_frame)
+                            .arg(track.frames);
+    const QString first = clock_.text(track.first_frame), last = clock_.text(track.last_frame);
+    return first.isEmpty() || last.isEmpty() ? tip : tip + QLatin1Char('\n') + tr("%1 to %2").arg(first, last);
+}
+
 double TracksModel::secondsOf(const TrackSummary& track) const {
     const int frames = track.last_frame - track.first_frame + 1;
     return scale_.frame_rate_hz > 0 ? frames / scale_.frame_rate_hz : 0;
@@ -30,12 +54,7 @@ QVariant TracksModel::data(const QModelIndex& index, int role) const {
         case Qt::DisplayRole:
             return textOf(*track, index.column());
         case Qt::ToolTipRole:
-            return tr("Track %1%2: frames %3 to %4, %5 states. Click to go to its first frame.")
-                .arg(QString::number(track->id),
-                     track->corrected ? QStringLiteral(" (%1)").arg(shownName(*track->corrected)) : QString())
-                .arg(track->first_frame)
-                .arg(track->last_frame)
-                .arg(track->frames);
+            return tipOf(*track);
         case Qt::TextAlignmentRole:
             if (index.column() == status_column || index.column() == class_column) return {};
             return QVariant(Qt::AlignRight | Qt::AlignVCenter);
@@ -53,9 +72,9 @@ QString TracksModel::textOf(const TrackSummary& track, int column) const {
         case id_column:
             return QString::number(track.id);
         case first_column:
-            return QString::number(track.first_frame);
+            return timeOf(track.first_frame);
         case last_column:
-            return QString::number(track.last_frame);
+            return timeOf(track.last_frame);
         case life_column:
             return numberText(secondsOf(track), 1);
         case speed_column:
@@ -109,9 +128,9 @@ QString TracksModel::helpOf(int column) const {
         case id_column:
             return tr("Number of the track");
         case first_column:
-            return tr("First frame");
+            return clock_.known() ? tr("When it was first seen, by %1").arg(clock_.origin()) : tr("First frame");
         case last_column:
-            return tr("Last frame");
+            return clock_.known() ? tr("When it was last seen, by %1").arg(clock_.origin()) : tr("Last frame");
         case life_column:
             return tr("From first to last frame, in seconds");
         case speed_column:
@@ -147,9 +166,9 @@ QVariant TracksModel::headerData(int section, Qt::Orientation orientation, int r
         case id_column:
             return tr("Id");
         case first_column:
-            return tr("First");
+            return clock_.known() ? tr("First (UTC)") : tr("First");
         case last_column:
-            return tr("Last");
+            return clock_.known() ? tr("Last (UTC)") : tr("Last");
         case life_column:
             return tr("Life (s)");
         case speed_column:

@@ -6,6 +6,7 @@
 #include "core/values/scene_scale.h"
 #include "review/tracks/track_filter.h"
 #include "store/runs/run_store.h"
+#include "widgets/clock_of_frames.h"
 #include "widgets/tables/record_model.h"
 
 namespace eyrie::ui {
@@ -34,6 +35,8 @@ class TracksModel : public RecordModel<TrackSummary> {
     void setTracks(std::vector<TrackSummary> tracks, const SceneScale& scale);
     /// How like the tracks are to one of them; null: nobody asked, or it is not known yet.
     void setLikeness(std::shared_ptr<const LikenessByTrack> likeness);
+    /// Times of the day instead of numbers of frames, where they are known. To be given again when they are others.
+    void setClock(ClockOfFrames clock);
     const SceneScale& scale() const { return scale_; }
 
     int columnCount(const QModelIndex& parent = {}) const override { return parent.isValid() ? 0 : column_count; }
@@ -42,12 +45,15 @@ class TracksModel : public RecordModel<TrackSummary> {
 
  private:
     QString textOf(const TrackSummary& track, int column) const;
+    QString timeOf(FrameIndex frame) const;
+    QString tipOf(const TrackSummary& track) const;
     /// What a column holds, for its title's tooltip.
     QString helpOf(int column) const;
     QVariant sortValueOf(const TrackSummary& track, int column) const;
     double secondsOf(const TrackSummary& track) const;
     SceneScale scale_;
     std::shared_ptr<const LikenessByTrack> likeness_;
+    ClockOfFrames clock_;
 };
 
 }  // namespace eyrie::ui

@@ -113,10 +113,9 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     status_ = new StatusFields(session_, *statusBar());
     status_->setPlaces({[this](QPointF px) { return earth_->earth().placeOf(session_.shownFrame(), px); },
                         [this] { return earth_->earth().origin(); }});
-    status_->setClock({[this](FrameIndex frame) { return earth_->earth().clockText(frame); },
-                       [this] { return earth_->earth().clockOrigin(); }});
     whenAny(&earth_->earth(), status_, &StatusFields::showPlace, &VideoEarth::changed);
-    whenAny(&earth_->earth(), status_, &StatusFields::showClock, &VideoEarth::changed);
+    whenAny(&earth_->earth(), this, &MainWindow::showClock, &VideoEarth::clockChanged);
+    showClock();
     labelling_ = new LabelWorkspace(
         {session_, *canvas_, *timeline_, *label_rows_, *messages_, *actions_, *docks_, keys_, *this});
     evaluation_->join(*labelling_);
@@ -340,6 +339,19 @@ void MainWindow::showVideo() {
     const auto& video = session_.video();
     canvas_->clear(video ? QSize(video->size.width, video->size.height) : QSize());
     stack_->setCurrentIndex(video ? 1 : 0);
+}
+
+void MainWindow::showClock() {
+    const VideoEarth& earth = earth_->earth();
+    const ClockOfFrames clock = earth.clock();
+    status_->setClock(clock);
+    events_->setClock(clock);
+    review_->setClock(clock);
+    mosaic_->setClock(clock);
+    if (clock.known())
+        timeline_->setClock([&earth](std::int64_t video_us) { return earth.utcAt(video_us); });
+    else
+        timeline_->setClock({});
 }
 
 void MainWindow::showPicture() {

@@ -99,6 +99,8 @@ class MainWindow : public QMainWindow {
     void wireCanvas();
     void wireSession();
     void showVideo();
+    /// Whatever shows times shows those of the day, where they are known.
+    void showClock();
     void showPicture();
     void wireInspection();
     void enableActions();

@@ -36,6 +36,9 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
                         {"document-export",
                          {QKeySequence(tr("Ctrl+Shift+X"))},
                          QT_TR_NOOP("Write the tracks of this run for other programs, or into a copy of the video")});
+    start_time =
+        add(tr("Start &time…"),
+            {nullptr, {}, QT_TR_NOOP("When the video was taken, so that clock times stand beside its frames")});
     report = add(tr("Evaluation &report…"), {"document-export",
                                              {QKeySequence(tr("Ctrl+Shift+R"))},
                                              QT_TR_NOOP("Write the evaluation as one HTML or PDF file")});

@@ -2,13 +2,16 @@
 #include <cstdio>
 #include <memory>
 
+#include "cli/arguments/earlier_state.h"
 #include "cli/arguments/event_arguments.h"
 #include "cli/arguments/output_arguments.h"
+#include "cli/arguments/video_arguments.h"
 #include "cli/command.h"
+#include "cli/interrupt.h"
 #include "cli/reports/events/event_table.h"
 #include "cli/reports/events/likeness_table.h"
 #include "cli/reports/figure_text.h"
-#include "events/event_csv.h"
+#include "cli/run_clock.h"
 
 namespace eyrie::cli {
 namespace {
@@ -17,6 +20,7 @@ struct ListArguments {
     EventArguments events;
     TrackId like = 0;
     std::string csv;
+    std::string start;
     OutputArguments outputs;
 };
 
@@ -61,6 +65,13 @@ void tellRemarks(const StoredTracks& stored, const std::vector<std::string>& rem
     for (const std::string& remark : remarks) std::fprintf(stderr, "eyrie-cli: %s\n", remark.c_str());
 }
 
+/// A list is there at once: only a table is worth reading through the video for.
+VideoClock clockFor(const ListArguments& arguments, const RunRecord& run) {
+    const InterruptGuard interrupt;
+    ProjectFile project = openForReading(arguments.events.project);
+    return clockOf(project, run, arguments.start, !arguments.csv.empty(), interrupt.token());
+}
+
 void tellEvents(const ListArguments& arguments) {
     const EventChoice choice = arguments.events.choice();
     arguments.outputs.check({{arguments.csv, FileKind::text}}, {arguments.events.project, arguments.events.zones});
@@ -70,12 +81,13 @@ void tellEvents(const ListArguments& arguments) {
     if (choice.zones) checkReach(*choice.zones, stored.footage);
     tellRemarks(stored, remarksOn(reviewed.zones, stored.footage));
     const JudgedEvents wanted = wantedOf(reviewed, choice);
+    const FrameClock seconds = [&](FrameIndex frame) { return stored.secondsOf(frame); };
+    const FrameMoment moment = momentsBy(clockFor(arguments, reviewed.run), seconds);
     if (!arguments.csv.empty()) {
-        writeEventCsv(
-            arguments.csv, wanted.events, [&](FrameIndex frame) { return stored.secondsOf(frame); }, wanted.verdicts,
-            wanted.numbers, makersOf(wanted, stored));
+        writeEventCsv(arguments.csv, wanted.events, seconds, wanted.verdicts, wanted.numbers, makersOf(wanted, stored),
+                      moment);
     }
-    printEvents(wanted, stored);
+    printEvents(wanted, stored, moment);
     printLeft(wanted, reviewed.review);
     printCorrections(reviewed.tracks.corrections, reviewed.review);
 }
@@ -110,6 +122,7 @@ void addEventsCommand(CLI::App& app, int& exit_code) {
                      ->type_name("TRACK");
     for (const char* of_events : {"--kind", "--verdict", "--zone"}) like->excludes(command->get_option(of_events));
     command->add_option("--csv", arguments->csv, "Write what is listed as a table, too");
+    like->excludes(command->add_option("--start", arguments->start, kStartHelp));
     arguments->outputs.addTo(*command);
     command->callback([arguments, like, &exit_code] {
         like->count() > 0 ? tellLikeTracks(*arguments) : tellEvents(*arguments);

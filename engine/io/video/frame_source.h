@@ -23,6 +23,7 @@ struct VideoPart {
     int first_picture = 0;                     ///< coded pictures of the parts before it
     std::int64_t stamp_shift_us = 0;           ///< takes its container's stamps to PictureStamp::stamp_us of the whole
     std::optional<std::int64_t> start_utc_us;  ///< when its first frame was taken, as a person wrote into the list
+    std::optional<std::int64_t> created_utc_us = {};  ///< VideoInfo::created_utc_us of the file
 };
 
 /// What is known of a video before its first frame is decoded.
@@ -38,6 +39,9 @@ struct VideoInfo {
     std::string codec;                  ///< "h264", "png sequence" …
     std::string container;              ///< "mov,mp4,…", "folder"
     std::vector<VideoPart> parts = {};  ///< in order, where the video consists of several files; else none
+    /// When the file was begun, µs since 1970-01-01, as its container says; many never say it, some in local time, and
+    /// who converts a video may put in when that was done. None of several parts.
+    std::optional<std::int64_t> created_utc_us = {};
 
     /// The part that a frame lies in; null where the video is one file, or has no such frame.
     const VideoPart* partOf(FrameIndex frame) const;

@@ -16,7 +16,7 @@ namespace eyrie {
 
 namespace {
 
-constexpr std::uint64_t kMagic = 0x3158444945525945ULL;  // EYREIDX1; a new layout gets a new number
+constexpr std::uint64_t kMagic = 0x3258444945525945ULL;  // EYREIDX2; a new layout gets a new number
 
 std::uint64_t checksum(const std::string& bytes, std::size_t length) {
     std::uint64_t sum = 0xCBF29CE484222325ULL;
@@ -101,6 +101,8 @@ std::string pack(const FileState& file, const VideoIndex& index) {
     packer.number(index.nominal_rate_hz);
     packer.text(index.codec);
     packer.text(index.container);
+    packer.number<std::uint8_t>(index.created_utc_us.has_value());
+    packer.number(index.created_utc_us.value_or(0));
     packer.number<std::uint64_t>(index.packets.size());
     for (const PacketRecord& packet : index.packets) {
         packer.number(packet.pts);
@@ -150,6 +152,9 @@ std::optional<VideoIndex> unpack(const std::string& bytes, const FileState& file
     index.nominal_rate_hz = unpacker.number<double>();
     index.codec = unpacker.text();
     index.container = unpacker.text();
+    const bool dated = unpacker.number<std::uint8_t>() != 0;
+    const auto created_utc_us = unpacker.number<std::int64_t>();
+    if (dated) index.created_utc_us = created_utc_us;
     constexpr std::size_t packet_size = 3 * sizeof(std::int64_t) + sizeof(std::int32_t) + 1;
     index.packets.resize(unpacker.count(packet_size));
     for (PacketRecord& packet : index.packets) {

@@ -6,6 +6,7 @@
 #include <unordered_set>
 
 #include "core/error.h"
+#include "core/utc_time.h"
 #include "io/video/video_decoder.h"
 
 namespace eyrie {
@@ -45,6 +46,17 @@ int quarterTurns(const AVStream& stream) {
     if (std::isnan(counterclockwise_degrees)) return 0;
     const int turns = static_cast<int>(std::lround(-counterclockwise_degrees / 90.0)) % 4;
     return (turns + 4) % 4;
+}
+
+/// When a file was begun, as it says; nothing where a clock was never set: those begin in 1904, 1970 or 1980.
+std::optional<std::int64_t> creationTimeOf(const AVFormatContext& container, const AVStream& stream) {
+    constexpr std::int64_t kFirstBelieved_us = 347'155'200'000'000;  // 1981-01-01
+    for (const AVDictionary* tags : {container.metadata, stream.metadata}) {
+        const AVDictionaryEntry* tag = av_dict_get(tags, "creation_time", nullptr, 0);
+        const auto created_us = tag != nullptr ? utcOf(tag->value) : std::nullopt;
+        if (created_us && *created_us >= kFirstBelieved_us) return created_us;
+    }
+    return std::nullopt;
 }
 
 /// Codecs whose every packet shows exactly once and whose stamps are those of its picture.
@@ -93,6 +105,7 @@ Scan scanPackets(const std::filesystem::path& path, VideoIndex& index, Progress&
     index.nominal_rate_hz = rate_hz < kHighestRate ? rate_hz : 0;
     index.codec = avcodec_get_name(stream.codecpar->codec_id);
     index.container = demuxer->iformat->name;
+    index.created_utc_us = creationTimeOf(*demuxer, stream);
     scan.order_is_known = showsEveryPacket(stream.codecpar->codec_id) && !mayHoldFields(*stream.codecpar);
 
     const std::int64_t file_size = std::max<std::int64_t>(1, avio_size(demuxer->pb));

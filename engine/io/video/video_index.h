@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <opencv2/core/types.hpp>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -38,9 +39,10 @@ struct VideoIndex {
     double nominal_rate_hz = 0;      ///< what the container says; 0: nothing
     std::string codec;
     std::string container;
-    std::vector<PacketRecord> packets;      ///< in file order
-    std::vector<std::int32_t> shown;        ///< packet number of each frame, in the order of presentation
-    std::vector<std::int64_t> shown_ticks;  ///< presentation time of each frame from the first, strictly ascending
+    std::optional<std::int64_t> created_utc_us;  ///< VideoInfo::created_utc_us
+    std::vector<PacketRecord> packets;           ///< in file order
+    std::vector<std::int32_t> shown;             ///< packet number of each frame, in the order of presentation
+    std::vector<std::int64_t> shown_ticks;       ///< presentation time of each frame from the first, strictly ascending
 
     /// Packet that decoding the whole video starts from: the first key frame, or 0 in a video without any.
     int firstStart() const;

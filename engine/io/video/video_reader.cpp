@@ -95,6 +95,7 @@ void VideoReader::describe(const SourceOptions& options) {
     info_.frame_count = static_cast<int>(index_.shown.size());
     info_.codec = index_.codec;
     info_.container = index_.container;
+    info_.created_utc_us = index_.created_utc_us;
     info_.frame_rate_hz = index_.nominal_rate_hz > 0 ? index_.nominal_rate_hz : 25.0;
     const FrameTiming timing = timingOf(ticks, tick_s);
     if (timing.rate_hz > 0) info_.frame_rate_hz = timing.rate_hz;

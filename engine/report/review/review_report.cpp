@@ -11,6 +11,7 @@
 #include "metadata/metadata_scale.h"
 #include "report/report_parts.h"
 #include "report/review/review_parts.h"
+#include "store/project/video_start.h"
 #include "store/review/control_points.h"
 #include "store/review/seen_store.h"
 
@@ -242,7 +243,7 @@ ReviewReportInput gatherReviewReport(ProjectFile& project, const RunRecord& run,
                                      {},
                                      footage.camera,
                                      readControlPoints(project, run.sequence.id)},
-                                    start_utc_us, stop);
+                                    videoStartOf(project, run.sequence.id, start_utc_us), stop);
     input.clock = std::move(video.clock);
     input.places = std::move(video.places);
     if (video.metadata) input.scale_remark = remarkOnScale(run, video.metadata->timeline(), *pixels);

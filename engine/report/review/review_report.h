@@ -30,7 +30,8 @@ struct ReviewReportInput {
 };
 
 /// What is read of a project and its video for a report. `pixels` may be null: then there are neither stills nor
-/// metadata, which the report says. `start_utc_us`: when the video began, if a person says so. Throws Error(project).
+/// metadata, which the report says. `start_utc_us`: when the video began, if a person says so now; else
+/// as the project keeps it. Throws Error(project).
 ReviewReportInput gatherReviewReport(ProjectFile& project, const RunRecord& run, const EventChoice& choice,
                                      const FrameSource* pixels, std::optional<std::int64_t> start_utc_us = {},
                                      const std::stop_token& stop = {});

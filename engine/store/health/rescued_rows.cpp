@@ -100,6 +100,16 @@ std::vector<std::string> mendScaleSlopes(SQLite::Database& database) {
     return lost;
 }
 
+std::vector<std::string> mendVideoStarts(SQLite::Database& database) {
+    addRowFunctions(database);
+    const std::string broken = "NOT (" + fittingVideoStart() + ")";
+    std::vector<std::string> lost;
+    for (const std::string& id : textsOf(database, "SELECT id FROM sequence WHERE " + broken + " ORDER BY id"))
+        lost.push_back("when video " + id + " began");
+    database.exec("UPDATE sequence SET start_utc = '' WHERE " + broken);
+    return lost;
+}
+
 std::vector<std::string> dropImpossibleRows(SQLite::Database& database) {
     addRowFunctions(database);
     std::vector<std::string> lost;

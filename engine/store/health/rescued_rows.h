@@ -17,6 +17,9 @@ std::vector<std::string> mendScaleOrigins(SQLite::Database& database);
 /// Runs whose scale changes over the picture in an impossible way are of one scale.
 std::vector<std::string> mendScaleSlopes(SQLite::Database& database);
 
+/// Videos that begin at no time begin nobody knows when.
+std::vector<std::string> mendVideoStarts(SQLite::Database& database);
+
 /// Deletes rows that no writer wrote.
 std::vector<std::string> dropImpossibleRows(SQLite::Database& database);
 

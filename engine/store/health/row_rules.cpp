@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/review/track_correction.h"
+#include "core/utc_time.h"
 #include "store/details/squeezed_bytes.h"
 #include "store/labels/packed_labels.h"
 #include "store/project/sequence_rows.h"
@@ -61,6 +62,13 @@ void answerReadable(sqlite3_context* context, int, sqlite3_value** values) {
     sqlite3_result_int(context, unpack(ByteView(data, size)).has_value() ? 1 : 0);
 }
 
+/// SQL function of a text: whether it is a moment.
+void answerMoment(sqlite3_context* context, int, sqlite3_value** values) {
+    const auto* text = reinterpret_cast<const char*>(sqlite3_value_text(values[0]));
+    const auto size = static_cast<std::size_t>(sqlite3_value_bytes(values[0]));
+    sqlite3_result_int(context, text != nullptr && utcOf({text, size}) ? 1 : 0);
+}
+
 /// SQL function of shape and points: whether they make a zone.
 void answerZone(sqlite3_context* context, int, sqlite3_value** values) {
     const auto* shape = reinterpret_cast<const char*>(sqlite3_value_text(values[0]));
@@ -114,6 +122,7 @@ void addRowFunctions(SQLite::Database& database) {
     add("are_squeezed_vectors", answerReadable<unsqueezeMotionVectors>);
     add("are_squeezed_boxes", answerReadable<unsqueezeBoxes>);
     add("octets", answerOctets);
+    add("is_moment", answerMoment);
     add("are_points", answerReadable<unpackPoints>);
     add("are_indices", answerReadable<unpackIndices>);
     add("are_keyframes", answerReadable<unpackKeyframes>);
@@ -138,6 +147,10 @@ std::string fittingScaleSlope() {
     return "scale_growth_right BETWEEN -1 AND 1 AND scale_growth_down BETWEEN -1 AND 1";
 }
 
+std::string fittingVideoStart() {
+    return "(start_utc = '' OR is_moment(start_utc))";
+}
+
 std::vector<RowRule> rowRules() {
     const std::string frames = " BETWEEN 0 AND " + std::to_string(kLastFrame + 1);
     const std::string frame = "frame" + frames;
@@ -159,6 +172,7 @@ std::vector<RowRule> rowRules() {
         {"run", fittingScaleOrigin(), "where the scale of a run comes from, or how sure it is, is impossible", 12},
         {"sequence", "rate_assumed IN (0, 1)", "whether the frame rate of a video is assumed is impossible", 19},
         {"run", "rate_assumed IN (0, 1)", "whether the frame rate of a run is assumed is impossible", 19},
+        {"sequence", fittingVideoStart(), "when a video began is no time", 21},
         {"run", fittingScaleSlope(), "how the scale of a run changes over the picture is impossible", 14},
         {"frame",
          frame + " AND width" + kPixels + " AND height" + kPixels + " AND corner_count >= 0 AND " +

@@ -24,6 +24,8 @@ std::vector<RowRule> rowRules();
 std::string fittingScaleOrigin();
 /// The same for how the scale changes over the picture.
 std::string fittingScaleSlope();
+/// The same for when a video began.
+std::string fittingVideoStart();
 
 /// Gives a connection the functions that the rules use: whether packed bytes can be unpacked.
 void addRowFunctions(SQLite::Database& database);

@@ -452,4 +452,9 @@ FROM (SELECT track.run_id AS run, track.id AS track, track.first_frame, track.la
 )sql");
 }
 
+// When the first frame of a video was taken, as a person says; empty: nobody said.
+void addVideoStarts(SQLite::Database& database) {
+    database.exec("ALTER TABLE sequence ADD COLUMN start_utc TEXT NOT NULL DEFAULT ''");
+}
+
 }  // namespace eyrie::schema

@@ -15,13 +15,13 @@
 namespace eyrie::schema {
 namespace {
 
-constexpr std::array kMigrations{addRuns,          addLabels,       addComparisonsAndCompleteBoxes,
-                                 addSweeps,        addPresets,      addDroppedStates,
-                                 addRemovalOfRuns, addRunStates,    addRegistrationFaults,
-                                 addViews,         addReview,       addScaleOrigins,
-                                 addZones,         addScaleSlopes,  addKeptDetails,
-                                 addEvidence,      addCorrections,  addLocalScales,
-                                 addAssumedRates,  addCompactStates};
+constexpr std::array kMigrations{addRuns,          addLabels,        addComparisonsAndCompleteBoxes,
+                                 addSweeps,        addPresets,       addDroppedStates,
+                                 addRemovalOfRuns, addRunStates,     addRegistrationFaults,
+                                 addViews,         addReview,        addScaleOrigins,
+                                 addZones,         addScaleSlopes,   addKeptDetails,
+                                 addEvidence,      addCorrections,   addLocalScales,
+                                 addAssumedRates,  addCompactStates, addVideoStarts};
 
 }  // namespace
 

@@ -28,5 +28,6 @@ void addCorrections(SQLite::Database& database);
 void addLocalScales(SQLite::Database& database);
 void addAssumedRates(SQLite::Database& database);
 void addCompactStates(SQLite::Database& database);
+void addVideoStarts(SQLite::Database& database);
 
 }  // namespace eyrie::schema

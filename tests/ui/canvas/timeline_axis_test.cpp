@@ -101,6 +101,19 @@ class TimelineAxisTest : public QObject {
         QCOMPARE(labelled, 9);  // 0 s … 16 s
     }
 
+    void ticksStandAtRoundTimesOfTheDay() {
+        const TimelineAxis a = axis(401);
+        constexpr std::int64_t kBegin_us = 1'231'798'102'340'000;
+        int labelled = 0;
+        for (const TimelineTick& tick : a.ticks(times(401, 25), 80, kBegin_us)) {
+            if (!tick.labelled) continue;
+            QCOMPARE((tick.time_us + kBegin_us) % 2'000'000, 0);
+            QVERIFY(tick.time_us >= 0);
+            ++labelled;
+        }
+        QCOMPARE(labelled, 8);  // from 1.66 s on, every 2 s of 16 s
+    }
+
     void ticksFollowTrueTimesOfAVariableRate() {
         // The second half runs at half the rate: a tick at a frame's time stands at that frame.
         std::vector<std::int64_t> t;

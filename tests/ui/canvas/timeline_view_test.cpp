@@ -139,6 +139,22 @@ class TimelineViewTest : public QObject {
         QCOMPARE(view.grab().toImage(), before);
     }
 
+    void theRulerHasTheTimeOfTheDayWhereItIsKnown() {
+        TimelineView view;
+        view.resize(600, 104);
+        view.setTimes(times(50));
+        const QImage before = view.grab().toImage();
+        QCOMPARE(view.rulerText(1'000'000), QStringLiteral("0:01"));
+        view.setClock([](std::int64_t video_us) { return std::optional(1'231'798'102'000'000 + video_us); });
+        QCOMPARE(view.rulerText(1'000'000), QStringLiteral("22:08:23"));
+        QCOMPARE(view.rulerText(1'500'000, 1), QStringLiteral("22:08:23.5"));
+        QVERIFY(view.grab().toImage() != before);
+        view.setClock([](std::int64_t) { return std::optional<std::int64_t>(); });
+        QCOMPARE(view.rulerText(1'000'000), QString());
+        view.setClock({});
+        QCOMPARE(view.grab().toImage(), before);
+    }
+
     void withoutAVideoItIsEmptyAndHarmless() {
         TimelineView view;
         view.resize(600, 104);

@@ -1,3 +1,4 @@
+#include <QAbstractItemModelTester>
 #include <QComboBox>
 #include <QLabel>
 #include <QLineEdit>
@@ -118,6 +119,37 @@ class EventsListTest : public QObject {
         QCOMPARE(kindsShown(panel).front(), QStringLiteral("Not searched"));
         const QModelIndex first = model.index(0, EventsModel::kind_column);
         QVERIFY(first.data(Qt::ToolTipRole).toString().contains(QStringLiteral("Look for yourself")));
+    }
+
+    void timesOfTheDayStandThereWhereTheyAreKnown() {
+        EventsModel model;
+        const QAbstractItemModelTester tester(&model, QAbstractItemModelTester::FailureReportingMode::QtTest);
+        give(model, found(someEvents()));
+        const EventsPanel panel(&model, *actions_);
+        // The vehicle that was lost in frame 80.
+        const QModelIndex time = model.index(0, EventsModel::time_column);
+        const auto title = [&] {
+            return model.headerData(EventsModel::time_column, Qt::Horizontal, Qt::DisplayRole).toString();
+        };
+        const QString in_video = time.data().toString();
+        QCOMPARE(title(), QStringLiteral("Time"));
+        ClockOfFrames clock;
+        clock.time = [](FrameIndex frame) { return frame == 80 ? QStringLiteral("22:08:25") : QString(); };
+        clock.text = [](FrameIndex) { return QStringLiteral("2009-01-12 22:08:25.200 UTC"); };
+        clock.origin = [] { return QStringLiteral("the start time given"); };
+        QSignalSpy told(&model, &EventsModel::dataChanged);
+        model.setClock(clock);
+        QCOMPARE(told.count(), 1);
+        QCOMPARE(time.data().toString(), QStringLiteral("22:08:25"));
+        QCOMPARE(title(), QStringLiteral("Time (UTC)"));
+        const QString tip = time.data(Qt::ToolTipRole).toString();
+        QVERIFY2(tip.contains(QStringLiteral("2009-01-12 22:08:25.200 UTC")), qPrintable(tip));
+        QVERIFY2(tip.contains(in_video + QStringLiteral(" in the video")), qPrintable(tip));
+        const QModelIndex other = model.index(1, EventsModel::time_column);
+        QVERIFY2(!other.data().toString().isEmpty(), "where nobody knows, the time of the video");
+        model.setClock({});
+        QCOMPARE(time.data().toString(), in_video);
+        QCOMPARE(title(), QStringLiteral("Time"));
     }
 
     void hiddenEventsAreCounted() {

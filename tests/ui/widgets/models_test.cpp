@@ -52,6 +52,26 @@ class ModelsTest : public QObject {
         QCOMPARE(model.rowCount(), 0);
     }
 
+    void tracksTellWhenTheyWereSeenWhereThatIsKnown() {
+        TracksModel model;
+        model.setTracks({sampleTrack(3)}, {});
+        const QString first = cell(model, 0, TracksModel::first_column);
+        const auto title = [&](int column) {
+            return model.headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
+        };
+        QCOMPARE(first, QString::number(model.recordAt(0)->first_frame));
+        ClockOfFrames clock;
+        clock.time = [&](FrameIndex frame) { return QStringLiteral("t%1").arg(frame); };
+        clock.text = [&](FrameIndex frame) { return QStringLiteral("day t%1").arg(frame); };
+        clock.origin = [] { return QStringLiteral("the video's metadata"); };
+        model.setClock(clock);
+        QCOMPARE(cell(model, 0, TracksModel::first_column), QStringLiteral("t") + first);
+        QCOMPARE(title(TracksModel::last_column), QStringLiteral("Last (UTC)"));
+        const QModelIndex at = model.index(0, TracksModel::first_column);
+        QVERIFY(at.data(Qt::ToolTipRole).toString().contains(QStringLiteral("day t") + first));
+        QCOMPARE(at.data(sort_role).toInt(), model.recordAt(0)->first_frame);
+    }
+
     void tracksKeepTheRulesOfModels() {
         TracksModel model;
         TableSortProxy proxy;

@@ -82,7 +82,8 @@ void TimelineAxis::limit() {
     first_ = std::clamp(first_, 0.0, std::max(0.0, count_ - shown));
 }
 
-std::vector<TimelineTick> TimelineAxis::ticks(const std::vector<std::int64_t>& times_us, double min_gap_px) const {
+std::vector<TimelineTick> TimelineAxis::ticks(const std::vector<std::int64_t>& times_us, double min_gap_px,
+                                              std::int64_t shift_us) const {
     if (count_ < 2 || times_us.size() != static_cast<size_t>(count_)) return {};
     const FrameIndex first = firstVisible();
     const FrameIndex last = lastVisible();
@@ -104,7 +105,7 @@ std::vector<TimelineTick> TimelineAxis::ticks(const std::vector<std::int64_t>& t
     const std::int64_t small_us = std::max<std::int64_t>(1, step_us / 5);
     std::vector<TimelineTick> result;
     FrameIndex frame = first;
-    for (std::int64_t time = times_us[static_cast<size_t>(first)] / small_us * small_us;
+    for (std::int64_t time = (times_us[static_cast<size_t>(first)] + shift_us) / small_us * small_us - shift_us;
          time <= times_us[static_cast<size_t>(last)]; time += small_us) {
         while (frame < last && times_us[static_cast<size_t>(frame) + 1] <= time) ++frame;
         const std::int64_t from = times_us[static_cast<size_t>(frame)];
@@ -112,7 +113,7 @@ std::vector<TimelineTick> TimelineAxis::ticks(const std::vector<std::int64_t>& t
         const bool has_next = frame + 1 < count_;
         const std::int64_t length = has_next ? times_us[static_cast<size_t>(frame) + 1] - from : 0;
         const double part = length > 0 ? static_cast<double>(time - from) / static_cast<double>(length) : 0;
-        result.push_back({xOf(frame + part), time, time % step_us == 0});
+        result.push_back({xOf(frame + part), time, (time + shift_us) % step_us == 0});
     }
     return result;
 }

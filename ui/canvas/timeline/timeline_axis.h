@@ -50,8 +50,9 @@ class TimelineAxis {
     void reveal(FrameIndex frame);
 
     /// Marks at round times (1, 2, 5 × 10ⁿ, or minutes), labelled at least `min_gap_px` apart. `times_us` holds each
-    /// frame's presentation time, ascending, one per frame.
-    std::vector<TimelineTick> ticks(const std::vector<std::int64_t>& times_us, double min_gap_px) const;
+    /// frame's presentation time, ascending, one per frame. The times that are round are those plus `shift_us`.
+    std::vector<TimelineTick> ticks(const std::vector<std::int64_t>& times_us, double min_gap_px,
+                                    std::int64_t shift_us = 0) const;
 
  private:
     void limit();

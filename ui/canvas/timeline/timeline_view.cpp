@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "core/time_text.h"
+#include "core/utc_time.h"
 #include "widgets/theme_colours.h"
 
 namespace eyrie::ui {
@@ -22,6 +23,7 @@ constexpr double kGap = 6;
 constexpr double kMarkHeight = 12;
 constexpr double kMarkReach = 5;  ///< px beside a mark that count as on it
 constexpr int kHeight = 104;
+constexpr double kLabelGap = 80;  ///< px from one time on the ruler to the next, at least
 
 }  // namespace
 
@@ -52,6 +54,17 @@ void TimelineView::setTimes(std::vector<std::int64_t> times_us) {
 void TimelineView::setSeams(std::vector<FrameIndex> frames) {
     seams_ = TimelineSeams(std::move(frames));
     update();
+}
+
+void TimelineView::setClock(std::function<std::optional<std::int64_t>(std::int64_t video_us)> utc_at) {
+    utc_at_ = std::move(utc_at);
+    update();
+}
+
+QString TimelineView::rulerText(std::int64_t video_us, int decimals) const {
+    if (!utc_at_) return QString::fromStdString(timeText(video_us, decimals));
+    const auto utc_us = utc_at_(video_us);
+    return utc_us ? QString::fromStdString(timeOfDayText(*utc_us, decimals)) : QString();
 }
 
 void TimelineView::extendTimes(std::vector<std::int64_t> times_us) {
@@ -162,7 +175,7 @@ void TimelineView::paintEvent(QPaintEvent*) {
         painter.drawText(QRectF(8, beside.top(), axis_.left() - 16, beside.height()), Qt::AlignVCenter | Qt::AlignRight,
                          fontMetrics().elidedText(text, Qt::ElideRight, static_cast<int>(axis_.left()) - 16));
     };
-    name(row.ruler, tr("Time"));
+    name(row.ruler, utc_at_ ? tr("Time (UTC)") : tr("Time"));
     name(row.quality, tr("Registration"));
     if (!marks_.empty()) name(row.marks, marks_name_);
     if (frames_.empty()) {
@@ -191,7 +204,10 @@ void TimelineView::paintEvent(QPaintEvent*) {
 }
 
 void TimelineView::paintRuler(QPainter& painter, const QRectF& row) const {
-    const auto ticks = axis_.ticks(times_us_, 80);
+    // Round times of the day, as they are where the view begins.
+    const std::int64_t begin_us = times_us_[static_cast<size_t>(axis_.firstVisible())];
+    const auto begin_utc_us = utc_at_ ? utc_at_(begin_us) : std::nullopt;
+    const auto ticks = axis_.ticks(times_us_, kLabelGap, begin_utc_us.value_or(begin_us) - begin_us);
     const QColor text = palette().color(QPalette::WindowText);
     QColor faint = text;
     faint.setAlphaF(0.35F);
@@ -208,7 +224,7 @@ void TimelineView::paintRuler(QPainter& painter, const QRectF& row) const {
         painter.setPen(faint);
         painter.drawLine(QLineF(x, row.bottom() - (tick.labelled ? 7 : 3), x, row.bottom()));
         if (!tick.labelled) continue;
-        const QString label = QString::fromStdString(timeText(tick.time_us, decimals));
+        const QString label = rulerText(tick.time_us, decimals);
         const double label_width = fontMetrics().horizontalAdvance(label);
         if (x + 3 + label_width > row.right()) continue;
         painter.setPen(text);

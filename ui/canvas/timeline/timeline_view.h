@@ -29,6 +29,11 @@ class TimelineView : public QWidget {
     void setSeams(std::vector<FrameIndex> frames);
     /// What is to be said of a frame besides what it was found to be, in lines; empty: nothing.
     void setDescription(std::function<QString(FrameIndex)> describe) { describe_place_ = std::move(describe); }
+    /// What time it was at a moment of the video, µs since 1970-01-01, nothing where nobody knows: the ruler has the
+    /// time of the day then. No function: it has the time of the video.
+    void setClock(std::function<std::optional<std::int64_t>(std::int64_t video_us)> utc_at);
+    /// What stands on the ruler at a moment of the video.
+    QString rulerText(std::int64_t video_us, int decimals = 0) const;
     /// The video has grown: the same frames and some behind them. Keeps all that was told of the former.
     void extendTimes(std::vector<std::int64_t> times_us);
     /// All frames of a run, by index; may be shorter than the video.
@@ -98,6 +103,7 @@ class TimelineView : public QWidget {
     std::function<QString(int id)> describe_mark_;
     TimelineSeams seams_;
     std::function<QString(FrameIndex)> describe_place_;
+    std::function<std::optional<std::int64_t>(std::int64_t)> utc_at_;
     OverlayColours colours_ = overlayColours(PaletteKind::thesis);
     FrameIndex current_ = 0;
     bool scrubbing_ = false;

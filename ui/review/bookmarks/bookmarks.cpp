@@ -61,6 +61,10 @@ void Bookmarks::showList() {
     panel_->explainNothing(review_.canMark(), actions_.bookmark->shortcut().toString(QKeySequence::NativeText));
 }
 
+void Bookmarks::setClock(const ClockOfFrames& clock) {
+    model_->setClock(clock);
+}
+
 const Bookmark* Bookmarks::at(FrameIndex frame) const {
     for (const auto& [id, bookmark] : review_.bookmarks())
         if (bookmark.frame == frame) return &bookmark;

@@ -14,6 +14,7 @@ namespace eyrie::ui {
 
 class BookmarksModel;
 class BookmarksPanel;
+struct ClockOfFrames;
 class EventReview;
 class ProjectSession;
 class WindowActions;
@@ -41,6 +42,8 @@ class Bookmarks : public QObject {
 
     /// Whether keys are wanted: labelling has others. To be called again when bookmarks have changed: the list follows.
     void enableActions(bool active);
+    /// What time it was when the frames were taken; to be given again when that is known otherwise.
+    void setClock(const ClockOfFrames& clock);
     /// Their list, for a dock.
     BookmarksPanel& panel() { return *panel_; }
 

@@ -1,6 +1,7 @@
 #include "review/bookmarks/bookmarks_model.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/time_text.h"
 #include "widgets/display_text.h"
@@ -16,6 +17,24 @@ void BookmarksModel::setBookmarks(const std::map<int, Bookmark>& bookmarks) {
     if (rows != records()) replaceRecords(std::move(rows));
 }
 
+void BookmarksModel::setClock(ClockOfFrames clock) {
+    clock_ = std::move(clock);
+    emit headerDataChanged(Qt::Horizontal, time_column, time_column);
+    if (rowCount() > 0) emit dataChanged(index(0, time_column), index(rowCount() - 1, time_column));
+}
+
+QString BookmarksModel::timeOf(const Bookmark& bookmark) const {
+    const QString time = clock_.time(bookmark.frame);
+    return time.isEmpty() ? QString::fromStdString(videoClockText(bookmark.seconds)) : time;
+}
+
+QString BookmarksModel::tipOf(const Bookmark& bookmark) const {
+    const QString tip =
+        tr("Double-click goes to frame %1; F2 changes the note, Delete removes the bookmark.").arg(bookmark.frame);
+    const QString moment = clock_.text(bookmark.frame);
+    return moment.isEmpty() ? tip : moment + QLatin1Char('\n') + tip;
+}
+
 QVariant BookmarksModel::data(const QModelIndex& index, int role) const {
     const Bookmark* bookmark = recordAt(index.row());
     if (bookmark == nullptr) return {};
@@ -28,7 +47,7 @@ QVariant BookmarksModel::data(const QModelIndex& index, int role) const {
                 case frame_column:
                     return QString::number(bookmark->frame);
                 case time_column:
-                    return QString::fromStdString(videoClockText(bookmark->seconds));
+                    return timeOf(*bookmark);
                 case note_column:
                     return QString::fromStdString(bookmark->note);
                 case person_column:
@@ -37,8 +56,7 @@ QVariant BookmarksModel::data(const QModelIndex& index, int role) const {
                     return localTimeText(bookmark->when_utc);
             }
         case Qt::ToolTipRole:
-            return tr("Double-click goes to frame %1; F2 changes the note, Delete removes the bookmark.")
-                .arg(bookmark->frame);
+            return tipOf(*bookmark);
         case Qt::TextAlignmentRole:
             return number ? QVariant(Qt::AlignRight | Qt::AlignVCenter) : QVariant();
         case sort_role:
@@ -58,7 +76,7 @@ QVariant BookmarksModel::headerData(int section, Qt::Orientation orientation, in
         case frame_column:
             return tr("Frame");
         case time_column:
-            return tr("Time");
+            return clock_.known() ? tr("Time (UTC)") : tr("Time");
         case note_column:
             return tr("Note");
         case person_column:

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "core/review/verdict.h"
+#include "widgets/clock_of_frames.h"
 #include "widgets/tables/record_model.h"
 
 namespace eyrie::ui {
@@ -18,6 +19,8 @@ class BookmarksModel : public RecordModel<Bookmark> {
     explicit BookmarksModel(QObject* parent = nullptr) : RecordModel(parent) {}
 
     void setBookmarks(const std::map<int, Bookmark>& bookmarks);
+    /// Times of the day instead of those of the video, where they are known. To be given again when they are others.
+    void setClock(ClockOfFrames clock);
 
     int columnCount(const QModelIndex& parent = {}) const override { return parent.isValid() ? 0 : column_count; }
     QVariant data(const QModelIndex& index, int role) const override;
@@ -27,6 +30,12 @@ class BookmarksModel : public RecordModel<Bookmark> {
 
  signals:
     void noteEdited(int id, const QString& note);
+
+ private:
+    QString timeOf(const Bookmark& bookmark) const;
+    QString tipOf(const Bookmark& bookmark) const;
+
+    ClockOfFrames clock_;
 };
 
 }  // namespace eyrie::ui

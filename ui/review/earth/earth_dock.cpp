@@ -8,6 +8,7 @@
 #include "review/earth/control_points_panel.h"
 #include "review/earth/ground_control.h"
 #include "review/earth/metadata_panel.h"
+#include "review/earth/start_time.h"
 #include "review/earth/video_earth.h"
 #include "widgets/layout/scrolled.h"
 #include "widgets/wiring.h"
@@ -24,6 +25,7 @@ EarthDock::EarthDock(const EarthParts& parts) : QObject(&parts.docks), parts_(pa
     earth_ = new VideoEarth(parts_.session, this);
     metadata_ = new MetadataPanel(parts_.session, *earth_);
     control_ = new GroundControl({parts_.session, parts_.canvas, parts_.actions, parts_.messages, *earth_}, this);
+    start_time_ = new StartTime({parts_.session, parts_.actions, parts_.messages, *earth_}, this);
     auto* content = new QWidget;
     auto* rows = new QVBoxLayout(content);
     rows->setContentsMargins(0, 0, 0, 0);

@@ -9,6 +9,7 @@ class GroundControl;
 class MessageBar;
 class MetadataPanel;
 class ProjectSession;
+class StartTime;
 class VideoEarth;
 class VideoView;
 class WindowActions;
@@ -22,7 +23,8 @@ struct EarthParts {
     MessageBar& messages;
 };
 
-/// The dock with the metadata of the video and the control points that a person set, and north over the picture.
+/// The dock with the metadata of the video and the control points that a person set, north over the picture, and the
+/// command that asks when the video began.
 class EarthDock : public QObject {
     Q_OBJECT
 
@@ -40,6 +42,7 @@ class EarthDock : public QObject {
     VideoEarth* earth_;
     MetadataPanel* metadata_;
     GroundControl* control_;
+    StartTime* start_time_;
 };
 
 }  // namespace eyrie::ui

@@ -8,6 +8,7 @@
 #include "events/stored_events.h"
 #include "session/background/pace.h"
 #include "store/labels/annotation_store.h"
+#include "store/project/video_start.h"
 #include "store/review/control_points.h"
 #include "workspace/session_reactions.h"
 
@@ -15,13 +16,20 @@ namespace eyrie::ui {
 
 namespace {
 
-/// What a person found on the earth in the video of this identity; nothing where the project cannot be read.
-std::vector<ControlPoint> controlPointsOf(const std::filesystem::path& path, const std::string& identity) {
+/// What a person said of when and where a video was taken.
+struct SaidOfVideo {
+    std::vector<ControlPoint> control;
+    std::optional<std::int64_t> start_us;
+};
+
+/// Of the video of this identity; nothing where the project cannot be read.
+SaidOfVideo saidOf(const std::filesystem::path& path, const std::string& identity) {
     if (path.empty()) return {};
     try {
         ProjectFile project = ProjectFile::open(path, ProjectFile::Mode::read_only);
         for (const SequenceRecord& sequence : sequencesOf(project))
-            if (sequence.path == identity) return readControlPoints(project, sequence.id);
+            if (sequence.path == identity)
+                return {readControlPoints(project, sequence.id), videoStartOf(project, sequence.id)};
     } catch (const Error&) {
         // Told by whoever shows the project; places are a help besides.
     }
@@ -51,10 +59,11 @@ void VideoEarth::readMetadata() {
     world_query_.cancel();
     found_.reset();
     world_.reset();
-    clock_ = {};
+    given_start_us_.reset();
     control_.clear();
     read_share_ = 0;
     viewed_ = -1;
+    setClock();
     emit changed();
     if (!session_.media()) return;
     const auto work = [this, media = *session_.media()](const BackgroundTask& task) {
@@ -76,9 +85,19 @@ void VideoEarth::readMetadata() {
 
 void VideoEarth::adopt(FoundMetadata found) {
     found_ = std::make_shared<const FoundMetadata>(std::move(found));
-    clock_ = VideoClock::ofParts(found_->parts, found_->metadata, std::nullopt);
+    setClock();
     emit changed();
     layOnEarth();
+}
+
+void VideoEarth::setClock() {
+    clock_ = {};
+    if (found_)
+        clock_ = VideoClock::of(*found_, given_start_us_);
+    else if (given_start_us_ && session_.video() && session_.video()->parts.empty())
+        // Of several parts the metadata tell what was not recorded between them.
+        clock_ = VideoClock::startingAt(*given_start_us_);
+    emit clockChanged();
 }
 
 std::optional<MetadataState> VideoEarth::stateOf(const VideoMetadata& stream, FrameIndex frame) const {
@@ -87,10 +106,24 @@ std::optional<MetadataState> VideoEarth::stateOf(const VideoMetadata& stream, Fr
     return stream.timeline().at(times[static_cast<std::size_t>(frame)]);
 }
 
-QString VideoEarth::clockText(FrameIndex frame) const {
+std::optional<std::int64_t> VideoEarth::momentOf(FrameIndex frame) const {
     const auto& times = session_.timesUs();
-    if (frame < 0 || static_cast<std::size_t>(frame) >= times.size()) return {};
-    const auto utc_us = clock_.at(times[static_cast<std::size_t>(frame)]);
+    if (frame < 0 || static_cast<std::size_t>(frame) >= times.size()) return std::nullopt;
+    return clock_.at(times[static_cast<std::size_t>(frame)]);
+}
+
+ClockOfFrames VideoEarth::clock() const {
+    return {.time =
+                [this](FrameIndex frame) {
+                    const auto utc_us = momentOf(frame);
+                    return utc_us ? QString::fromStdString(timeOfDayText(*utc_us)) : QString();
+                },
+            .text = [this](FrameIndex frame) { return clockText(frame); },
+            .origin = [this] { return clockOrigin(); }};
+}
+
+QString VideoEarth::clockText(FrameIndex frame) const {
+    const auto utc_us = momentOf(frame);
     if (!utc_us) return {};
     QString text = QString::fromStdString(utcTextToMilliseconds(*utc_us));
     text.remove(QLatin1Char('Z'));
@@ -118,8 +151,8 @@ void VideoEarth::layOnEarth() {
     const auto work = [this, found = found_, run = run_, footage = std::move(footage), times = session_.timesUs(),
                        project = session_.project(),
                        identity = session_.media()->identity](const BackgroundTask& task) mutable {
-        const std::vector<ControlPoint> control = controlPointsOf(project, identity);
-        footage.control = control;
+        const SaidOfVideo said = saidOf(project, identity);
+        footage.control = said.control;
         if (run) {
             footage.first_frame = run->footage.first_frame;
             footage.last_frame = std::min(footage.last_frame, run->footage.last_frame);
@@ -129,9 +162,10 @@ void VideoEarth::layOnEarth() {
         // Without registration there is nothing to steady each frame's own statement with.
         const FoundMetadata used = run && found ? *found : FoundMetadata();
         auto world = std::make_shared<const VideoWorld>(videoWorldOf(used, std::move(footage)));
-        task.tell([this, world, control] {
+        task.tell([this, world, said] {
             world_ = world;
-            control_ = control;
+            control_ = said.control;
+            if (std::exchange(given_start_us_, said.start_us) != said.start_us) setClock();
             emit changed();
         });
     };

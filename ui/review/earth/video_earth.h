@@ -10,6 +10,7 @@
 #include "georeference/video_world.h"
 #include "session/background/background_query.h"
 #include "session/project_session.h"
+#include "widgets/clock_of_frames.h"
 
 namespace eyrie {
 struct StoredTracks;
@@ -17,9 +18,9 @@ struct StoredTracks;
 
 namespace eyrie::ui {
 
-/// Where on the earth the video that is shown was taken: by what its metadata say, steadied by the registration of the
-/// run shown, or by the control points of its project. Read and worked out in the background; the video never waits
-/// for it.
+/// When and where on the earth the video that is shown was taken: by what its metadata say, steadied by the
+/// registration of the run shown, or by the control points of its project. Read and worked out in the background; the
+/// video never waits for it.
 class VideoEarth : public QObject {
     Q_OBJECT
 
@@ -42,6 +43,12 @@ class VideoEarth : public QObject {
     QString clockText(FrameIndex frame) const;
     /// What that rests on.
     QString clockOrigin() const { return QString::fromStdString(clock_.origin()); }
+    /// These, for whoever shows them beside frames. To be used as long as this object lives.
+    ClockOfFrames clock() const;
+    /// µs since 1970-01-01 at a moment of the video; nothing where nobody knows.
+    std::optional<std::int64_t> utcAt(std::int64_t video_us) const { return clock_.at(video_us); }
+    /// When the video began, as a person said and the project keeps it.
+    std::optional<std::int64_t> givenStart() const { return given_start_us_; }
 
     /// The place under a pixel; nothing where nobody knows.
     std::optional<GeoPoint> placeOf(FrameIndex frame, QPointF px) const;
@@ -55,24 +62,29 @@ class VideoEarth : public QObject {
     std::optional<QPointF> carried(QPointF px, FrameIndex from, FrameIndex to) const;
     /// What places rest on, and how well that agrees; empty where there are none.
     QString origin() const;
-    /// Reads the control points again, and works out the places anew.
+    /// Reads again what a person said of the video, its start and control points, and works out the places anew.
     void layOnEarth();
 
  signals:
     /// The metadata were read, or are those of another video; or places are others.
     void changed();
+    /// clock() tells other times than before, or tells some now, or none any more.
+    void clockChanged();
     /// Some more of the video was looked through.
     void readOn();
 
  private:
     void readMetadata();
     void adopt(FoundMetadata found);
+    void setClock();
+    std::optional<std::int64_t> momentOf(FrameIndex frame) const;
     const GroundView* viewOf(FrameIndex frame) const;
 
     ProjectSession& session_;
     std::shared_ptr<const StoredTracks> run_;
     std::shared_ptr<const FoundMetadata> found_;
     double read_share_ = 0;
+    std::optional<std::int64_t> given_start_us_;
     VideoClock clock_;
     std::vector<ControlPoint> control_;
     std::shared_ptr<const VideoWorld> world_;  ///< asked on this object's thread alone

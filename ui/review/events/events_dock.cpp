@@ -136,6 +136,11 @@ void EventsDock::bindCommands() {
               });
 }
 
+void EventsDock::setClock(const ClockOfFrames& clock) {
+    model_->setClock(clock);
+    bookmarks_->setClock(clock);
+}
+
 void EventsDock::setActive(bool active) {
     active_ = active;
     zones_->setActive(active);
@@ -234,7 +239,8 @@ QString EventsDock::markText(int id) const {
     const auto place = placeOf(id);
     if (!place || !model_->found()) return {};
     const QString verdict = judgementText(model_->recordAt(static_cast<int>(*place))->judgement);
-    return eventTipText(*model_->found(), *place) + (verdict.isEmpty() ? QString() : QLatin1Char('\n') + verdict);
+    const QModelIndex event = model_->index(static_cast<int>(*place), EventsModel::time_column);
+    return event.data(Qt::ToolTipRole).toString() + (verdict.isEmpty() ? QString() : QLatin1Char('\n') + verdict);
 }
 
 void EventsDock::enableActions() {

@@ -18,6 +18,7 @@ enum class Judgement;
 namespace eyrie::ui {
 
 class Bookmarks;
+struct ClockOfFrames;
 class TrackCorrecting;
 class DockRegistry;
 class EventReview;
@@ -55,6 +56,8 @@ class EventsDock : public QObject {
     Bookmarks& bookmarks() { return *bookmarks_; }
     TrackCorrecting& correcting() { return *correcting_; }
 
+    /// What time it was when the frames were taken; to be given again when that is known otherwise.
+    void setClock(const ClockOfFrames& clock);
     /// Whether keys and marks are wanted: labelling has others.
     void setActive(bool active);
     /// The current row as a place in the queue.

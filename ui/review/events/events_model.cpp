@@ -42,6 +42,12 @@ void EventsModel::setDark(bool dark) {
     emit dataChanged(index(0, 0), index(rowCount() - 1, column_count - 1), {Qt::DecorationRole});
 }
 
+void EventsModel::setClock(ClockOfFrames clock) {
+    clock_ = std::move(clock);
+    emit headerDataChanged(Qt::Horizontal, time_column, time_column);
+    if (rowCount() > 0) emit dataChanged(index(0, time_column), index(rowCount() - 1, time_column));
+}
+
 void EventsModel::forgetIds() {
     ids_.clear();
 }
@@ -67,7 +73,7 @@ QVariant EventsModel::data(const QModelIndex& index, int role) const {
         case Qt::EditRole:
             return column == note_column ? QVariant(entry->note) : QVariant();
         case Qt::ToolTipRole:
-            return eventTipText(*found_, entry->position);
+            return tipOf(*entry);
         case Qt::DecorationRole:
             return column == kind_column ? QVariant(judgementIcon(entry->judgement, dark_)) : QVariant();
         case Qt::TextAlignmentRole:
@@ -88,7 +94,7 @@ QString EventsModel::textOf(const EventEntry& entry, int column) const {
         case number_column:
             return (entry.starred ? QStringLiteral("★ ") : QString()) + eventNumberText(*found_, entry.position);
         case time_column:
-            return eventClockText(*found_, entry.position);
+            return timeOf(entry);
         case kind_column:
             return eventKindText(*found_, entry.position);
         case tracks_column:
@@ -102,6 +108,18 @@ QString EventsModel::textOf(const EventEntry& entry, int column) const {
         default:
             return {};
     }
+}
+
+QString EventsModel::timeOf(const EventEntry& entry) const {
+    const QString time = clock_.time(found_->framesAt(entry.position).first);
+    return time.isEmpty() ? eventClockText(*found_, entry.position) : time;
+}
+
+QString EventsModel::tipOf(const EventEntry& entry) const {
+    const QString tip = eventTipText(*found_, entry.position);
+    const QString moment = clock_.text(found_->framesAt(entry.position).first);
+    if (moment.isEmpty()) return tip;
+    return tip + QLatin1Char('\n') + tr("%1, %2 in the video").arg(moment, eventClockText(*found_, entry.position));
 }
 
 QVariant EventsModel::sortValueOf(const EventEntry& entry, int column) const {
@@ -133,6 +151,7 @@ QVariant EventsModel::headerData(int section, Qt::Orientation orientation, int r
                             "stands in the order in which to look; a third click on a heading brings that back")
                        : tr("#");
         case time_column:
+            if (clock_.known()) return tip ? tr("When it begins, by %1").arg(clock_.origin()) : tr("Time (UTC)");
             return tip ? tr("When it begins") : tr("Time");
         case kind_column:
             return tip ? tr("What happened") : tr("Kind");

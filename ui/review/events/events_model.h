@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "review/events/found_events.h"
+#include "widgets/clock_of_frames.h"
 #include "widgets/tables/record_model.h"
 
 namespace eyrie::ui {
@@ -43,6 +44,8 @@ class EventsModel : public RecordModel<EventEntry> {
                    const std::function<const Verdict*(std::size_t)>& verdict_at);
     /// What is said about one event.
     void setVerdict(std::size_t position, const Verdict* verdict);
+    /// Times of the day instead of those of the video, where they are known. To be given again when they are others.
+    void setClock(ClockOfFrames clock);
     /// Icons for a light or a dark ground.
     void setDark(bool dark);
     const std::shared_ptr<const FoundEvents>& found() const { return found_; }
@@ -64,12 +67,15 @@ class EventsModel : public RecordModel<EventEntry> {
 
     int idAt(const FoundEvents& found, std::size_t position, std::map<EventIdentity, int>& doubles);
     QString textOf(const EventEntry& entry, int column) const;
+    QString timeOf(const EventEntry& entry) const;
+    QString tipOf(const EventEntry& entry) const;
     QVariant sortValueOf(const EventEntry& entry, int column) const;
 
     std::shared_ptr<const FoundEvents> found_;
     std::map<EventIdentity, int> ids_;
     int next_id_ = 1;
     bool dark_ = false;
+    ClockOfFrames clock_;
 };
 
 }  // namespace eyrie::ui

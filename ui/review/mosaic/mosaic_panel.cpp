@@ -6,8 +6,8 @@
 #include <QStackedLayout>
 #include <QVBoxLayout>
 #include <algorithm>
-#include <cmath>
 #include <limits>
+#include <utility>
 
 #include "canvas/overlay_settings.h"
 #include "core/time_text.h"
@@ -30,10 +30,6 @@ QLabel* quietLine(QWidget* parent) {
     label->setWordWrap(true);
     label->setContentsMargins(6, 2, 6, 2);
     return label;
-}
-
-QString timeOf(const StoredTracks& run, FrameIndex frame) {
-    return QString::fromStdString(timeText(std::llround(run.secondsOf(frame) * 1e6), 1));
 }
 
 }  // namespace
@@ -171,10 +167,22 @@ void MosaicPanel::showFrame() {
 
 // ---- a place --------------------------------------------------------------------------------------------------------
 
+void MosaicPanel::setClock(ClockOfFrames clock) {
+    clock_ = std::move(clock);
+    if (asked_ && list_->count() > 0) askAbout(*asked_);
+}
+
+QString MosaicPanel::timeOf(FrameIndex frame) const {
+    const QString time = clock_.time(frame);
+    if (!time.isEmpty()) return time;
+    return QString::fromStdString(videoClockText(maker_.mosaic()->ground->run->secondsOf(frame)));
+}
+
 void MosaicPanel::askAbout(QPointF on_sheet) {
     const auto mosaic = maker_.mosaic();
     if (!mosaic) return;
     const int sheet = view_->sheet();
+    asked_ = on_sheet;
     view_->setPlace(on_sheet);
     const double margin = kMarginInView * view_->unitsPerPx();
     place_query_.ask([this, mosaic, sheet, on_sheet, margin](const BackgroundTask& task) {
@@ -193,17 +201,18 @@ void MosaicPanel::showHistory(int sheet, const PlaceHistory& history) {
         auto* item = new QListWidgetItem(text, list_);
         item->setData(kFrameRole, frame);
         item->setData(kTrackRole, track);
+        item->setToolTip(clock_.text(frame));
     };
     // In time: when it came into sight, and who came meanwhile.
     auto passage = history.passed.begin();
     const auto add_passages = [&](FrameIndex until) {
         for (; passage != history.passed.end() && passage->frames.first <= until; ++passage)
-            add(tr("    %1   track %2").arg(timeOf(run, passage->frames.first)).arg(passage->track),
-                passage->frames.first, passage->track);
+            add(tr("    %1   track %2").arg(timeOf(passage->frames.first)).arg(passage->track), passage->frames.first,
+                passage->track);
     };
     for (const FrameSpan& span : history.seen) {
         seconds += run.secondsOf(span.last) - run.secondsOf(span.first) + 1 / run.footage.scale.frame_rate_hz;
-        add(tr("seen %1 – %2").arg(timeOf(run, span.first), timeOf(run, span.last)), span.first, 0);
+        add(tr("seen %1 – %2").arg(timeOf(span.first), timeOf(span.last)), span.first, 0);
         add_passages(span.last);
     }
     add_passages(std::numeric_limits<FrameIndex>::max());

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "review/mosaic/mosaic_maker.h"
+#include "widgets/clock_of_frames.h"
 
 class QLabel;
 class QListWidget;
@@ -39,6 +40,8 @@ class MosaicPanel : public QWidget {
     MosaicView& view() { return *view_; }
     QListWidget& list() { return *list_; }
     const std::shared_ptr<const MosaicPicture>& mosaic() const { return maker_.mosaic(); }
+    /// What time it was when the frames were taken; to be given again when that is known otherwise.
+    void setClock(ClockOfFrames clock);
     /// What the line above the view says.
     QString headerText() const;
     /// Lists what is known of a place of the sheet shown.
@@ -50,6 +53,7 @@ class MosaicPanel : public QWidget {
     void showFrame();
     void fail(const QString& message);
     void explainNothing();
+    QString timeOf(FrameIndex frame) const;
     void showHistory(int sheet, const PlaceHistory& history);
     void activate(int row);
 
@@ -63,6 +67,8 @@ class MosaicPanel : public QWidget {
     QLabel* place_;
     MosaicView* view_;
     QListWidget* list_;
+    ClockOfFrames clock_;
+    std::optional<QPointF> asked_;  ///< the place that is listed
     MosaicMaker maker_;
     BackgroundQuery place_query_;  ///< last: stops before the rest goes
 };

@@ -7,6 +7,7 @@
 
 #include "core/geometry/local_plane.h"
 #include "session/project_session.h"
+#include "widgets/clock_of_frames.h"
 
 class QLabel;
 class QProgressBar;
@@ -19,14 +20,6 @@ namespace eyrie::ui {
 struct PlacesInPicture {
     /// Nothing where nobody knows.
     std::function<std::optional<GeoPoint>(QPointF px)> place_of = [](QPointF) { return std::nullopt; };
-    /// What that rests on, for people.
-    std::function<QString()> origin = [] { return QString(); };
-};
-
-/// When frames were taken.
-struct ClockOfFrames {
-    /// For people; empty where nobody knows.
-    std::function<QString(FrameIndex)> text = [](FrameIndex) { return QString(); };
     /// What that rests on, for people.
     std::function<QString()> origin = [] { return QString(); };
 };

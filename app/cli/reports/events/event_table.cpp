@@ -53,21 +53,23 @@ std::string whereText(const Event& event) {
 
 }  // namespace
 
-void printEvents(const JudgedEvents& judged, const StoredTracks& stored) {
+void printEvents(const JudgedEvents& judged, const StoredTracks& stored, const FrameMoment& moment) {
     const std::vector<Event>& events = judged.events;
     const int verdict_width = judged.any ? 15 : 0;
-    std::printf("%-5s %-17s %-13s %-10s %-12s %-14s %-*s%s\n", "no", "kind", "frames", "clock", "tracks", "figure",
-                verdict_width, judged.any ? "verdict" : "", "place");
+    const int moment_width = moment ? 25 : 0;
+    std::printf("%-5s %-17s %-13s %-10s %-*s%-12s %-14s %-*s%s\n", "no", "kind", "frames", "clock", moment_width,
+                moment ? "utc" : "", "tracks", "figure", verdict_width, judged.any ? "verdict" : "", "place");
     std::map<EventKind, int> counts;
     for (std::size_t i = 0; i < events.size(); ++i) {
         const Event& event = events[i];
         const Verdict* verdict = judged.verdicts[i];
         // A degree sign is two bytes, but one column.
         const int width = event.unit == FigureUnit::degrees ? 15 : 14;
-        std::printf("%-5d %-17s %-13s %-10s %-12s %-*s %-*s%s%s\n", judged.numbers[i], nameOf(event.kind),
+        std::printf("%-5d %-17s %-13s %-10s %-*s%-12s %-*s %-*s%s%s\n", judged.numbers[i], nameOf(event.kind),
                     framesText(event).c_str(), videoClockText(stored.secondsOf(event.first_frame)).c_str(),
-                    tracksText(event).c_str(), width, figureText(event).c_str(), verdict_width,
-                    verdictText(verdict).c_str(), whereText(event).c_str(), remarkText(verdict).c_str());
+                    moment_width, moment ? moment(event.first_frame).c_str() : "", tracksText(event).c_str(), width,
+                    figureText(event).c_str(), verdict_width, verdictText(verdict).c_str(), whereText(event).c_str(),
+                    remarkText(verdict).c_str());
         ++counts[event.kind];
     }
     std::printf("%zu event%s of %zu tracks", events.size(), events.size() == 1 ? "" : "s", stored.tracks.size());

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "events/event_csv.h"
 #include "events/review/carry_over.h"
 
 namespace eyrie::cli {
@@ -15,8 +16,8 @@ struct JudgedEvents {
     bool any = false;  ///< whether anything was said about this video
 };
 
-/// The events as a table, and how many there are of each kind.
-void printEvents(const JudgedEvents& judged, const StoredTracks& stored);
+/// The events as a table, and how many there are of each kind. No `moment`: nobody knows when the video was taken.
+void printEvents(const JudgedEvents& judged, const StoredTracks& stored, const FrameMoment& moment);
 /// The verdicts that could not be carried over, with the reasons; nothing where there are none.
 void printLeft(const JudgedEvents& judged, const ReviewSet& review);
 

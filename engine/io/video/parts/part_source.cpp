@@ -119,6 +119,7 @@ void PartSource::add(std::size_t number, const VideoReader& reader) {
     VideoPart part;
     part.file = listed.file;
     part.start_utc_us = listed.start_utc_us;
+    part.created_utc_us = found.created_utc_us;
     part.first_frame = info_.frame_count;
     part.frame_count = found.frame_count;
     const double rate = found.frame_count > 1 ? found.frame_rate_hz : info_.frame_rate_hz;
