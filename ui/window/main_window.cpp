@@ -123,13 +123,15 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     files_ =
         new OpenedFiles({session_, settings_, *actions_, *messages_, *guard_, *run_bar_, *welcome_, *canvas_, *this});
     live_ = new LiveWatching({session_, settings_, *actions_, *guard_, [this] { files_->rememberView(); }, *this});
+    workspaces_ = new Workspaces(*this, *docks_, overlays_);
     commands_ = new WindowCommands(
-        {session_, *actions_, *canvas_, *transport_, *run_bar_, *inspection_, keys_, *labelling_, *this});
+        {session_, *actions_, *canvas_, *transport_, *run_bar_, *inspection_, keys_, *labelling_, *workspaces_, *this});
     buildMenus();
     wireCanvas();
     wireSession();
     wireInspection();
     restoreGeometry(settings_.geometry());
+    setWindowState(windowState() & ~Qt::WindowFullScreen);  // a window that was closed so begins with all it has
     buildWorkspaces();
     enableActions();
     updateTitle();
@@ -220,7 +222,6 @@ void MainWindow::start(const StartOptions& options) {
 // ---- wiring ---------------------------------------------------------------------------------------------------------
 
 void MainWindow::buildWorkspaces() {
-    workspaces_ = new Workspaces(*this, *docks_, overlays_);
     for (const WorkspaceKind kind : allWorkspaces())
         bindCommands(this, {{actions_->workspaceAction(kind), [this, kind] { workspaces_->open(kind); }}});
     connect(workspaces_, &Workspaces::leaving, evaluation_, &EvaluationDocks::leaveWorkspace);

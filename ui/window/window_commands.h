@@ -14,6 +14,7 @@ class RunBar;
 class TransportBar;
 class VideoView;
 class WindowActions;
+class Workspaces;
 
 /// What the window's commands work on. All must outlive them.
 struct CommandParts {
@@ -25,6 +26,7 @@ struct CommandParts {
     Inspection& inspection;
     KeyBindings& keys;
     LabelWorkspace& labelling;
+    Workspaces& workspaces;
     QMainWindow& window;
 };
 
@@ -39,6 +41,9 @@ class WindowCommands : public QObject {
     /// Starts a run with what stands in the bar.
     void startRun();
 
+ protected:
+    bool eventFilter(QObject* watched, QEvent* event) override;
+
  private:
     void bindRun();
     void bindPlayback();
@@ -47,6 +52,8 @@ class WindowCommands : public QObject {
     /// One step back: out of a field, out of the selection, out of the full screen.
     void escape();
     void showFullScreen(bool on);
+    /// The window manager may have ended or begun it.
+    void followFullScreen();
     void showKeys();
     void showAbout();
 
