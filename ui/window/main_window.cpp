@@ -124,8 +124,8 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
         new OpenedFiles({session_, settings_, *actions_, *messages_, *guard_, *run_bar_, *welcome_, *canvas_, *this});
     live_ = new LiveWatching({session_, settings_, *actions_, *guard_, [this] { files_->rememberView(); }, *this});
     workspaces_ = new Workspaces(*this, *docks_, overlays_);
-    commands_ = new WindowCommands(
-        {session_, *actions_, *canvas_, *transport_, *run_bar_, *inspection_, keys_, *labelling_, *workspaces_, *this});
+    commands_ = new WindowCommands({session_, *actions_, *canvas_, *transport_, *timeline_, *run_bar_, *inspection_,
+                                    keys_, *labelling_, *workspaces_, *this});
     buildMenus();
     wireCanvas();
     wireSession();

@@ -4,6 +4,7 @@
 #include <QMainWindow>
 #include <QMessageBox>
 
+#include "canvas/timeline/timeline_view.h"
 #include "canvas/video_view.h"
 #include "chain/recording/run_recorder.h"
 #include "label/label_workspace.h"
@@ -114,6 +115,8 @@ void WindowCommands::escape() {
         parts_.inspection.clear();
     else if (parts_.window.isFullScreen())
         parts_.actions.full_screen->trigger();
+    else
+        parts_.timeline.showAll();
 }
 
 void WindowCommands::showFullScreen(bool on) {

@@ -11,6 +11,7 @@ class KeyBindings;
 class LabelWorkspace;
 class ProjectSession;
 class RunBar;
+class TimelineView;
 class TransportBar;
 class VideoView;
 class WindowActions;
@@ -22,6 +23,7 @@ struct CommandParts {
     WindowActions& actions;
     VideoView& canvas;
     TransportBar& transport;
+    TimelineView& timeline;
     RunBar& run_bar;
     Inspection& inspection;
     KeyBindings& keys;
@@ -49,7 +51,7 @@ class WindowCommands : public QObject {
     void bindPlayback();
     void bindView();
     void bindHelp();
-    /// One step back: out of a field, out of the selection, out of the full screen.
+    /// One step back: out of a field, out of the selection, out of the full screen, out of a part of the timeline.
     void escape();
     void showFullScreen(bool on);
     /// The window manager may have ended or begun it.

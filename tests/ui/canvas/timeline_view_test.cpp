@@ -3,6 +3,7 @@
 #include <QSignalSpy>
 #include <QTest>
 #include <QWheelEvent>
+#include <cmath>
 
 #include "ui/support/ui_test.h"
 
@@ -44,6 +45,21 @@ class TimelineViewTest : public QObject {
         QApplication::sendEvent(&view, &event);
         QCOMPARE(view.axis().frameAt(cursor.x()), under);
         QVERIFY(!view.axis().showsAll());
+    }
+
+    void itZoomsByTimeAndNotByCountsOfFrames() {
+        TimelineView view;
+        view.resize(700, 104);
+        // One second of 100 Hz, then one frame a second.
+        std::vector<std::int64_t> uneven;
+        for (int frame = 0; frame < 100; ++frame) uneven.push_back(frame * 10'000);
+        for (int second = 1; second <= 100; ++second) uneven.push_back(second * 1'000'000);
+        view.setTimes(uneven);
+        view.showAround(150, 160, 5'000'000);
+        const TimelineAxis& axis = view.axis();
+        QVERIFY(std::abs(axis.xOf(145) - axis.left()) < 1e-6 && std::abs(axis.xOf(166) - axis.right()) < 1e-6);
+        view.showAll();
+        QVERIFY(axis.showsAll());
     }
 
     void qualityHasAColourPerState() {

@@ -125,6 +125,19 @@ void TimelineView::showAll() {
     update();
 }
 
+void TimelineView::showAround(FrameIndex first, FrameIndex last, std::int64_t margin_us) {
+    if (times_us_.empty()) return;
+    const auto end = static_cast<FrameIndex>(times_us_.size()) - 1;
+    const auto time_of = [&](FrameIndex frame) {
+        return times_us_[static_cast<std::size_t>(std::clamp(frame, 0, end))];
+    };
+    const auto from = std::lower_bound(times_us_.begin(), times_us_.end(), time_of(first) - margin_us);
+    const auto behind = std::upper_bound(times_us_.begin(), times_us_.end(), time_of(last) + margin_us);
+    axis_.showFrames(static_cast<FrameIndex>(from - times_us_.begin()),
+                     static_cast<FrameIndex>(behind - times_us_.begin()) - 1);
+    update();
+}
+
 void TimelineView::layoutAxis() {
     const double gutter = fontMetrics().horizontalAdvance(tr("vectors (max 20000)")) + 18.0;
     axis_.setSpan(gutter, width() - gutter - kRightMargin);

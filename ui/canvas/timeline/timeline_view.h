@@ -51,6 +51,8 @@ class TimelineView : public QWidget {
     FrameIndex currentFrame() const { return current_; }
     const TimelineAxis& axis() const { return axis_; }
     void showAll();
+    /// Zooms to these frames with so much time of the video before and after them.
+    void showAround(FrameIndex first, FrameIndex last, std::int64_t margin_us);
 
     QSize sizeHint() const override { return {600, wantedHeight()}; }
     QSize minimumSizeHint() const override { return {240, wantedHeight()}; }
