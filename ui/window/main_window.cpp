@@ -264,8 +264,11 @@ void MainWindow::buildWatching() {
         ground_, like_, [this] { like_->setGround(ground_->ground()); }, &WatchedGround::changed);
     steady_ = new SteadyWatch({session_, *canvas_, *actions_, *ground_}, this);
     watching_ = new WatchCommands({session_, *canvas_, *actions_, *messages_, overlays_, *ground_}, this);
-    seen_ = new SeenWatch(
-        session_, *canvas_, *this, [this](std::optional<double> share) { events_->panel().showSeen(share); }, this);
+    const auto show_watched = [this](const std::optional<WatchedFrames>& watched) {
+        events_->panel().showSeen(watched ? std::optional(watched->share) : std::nullopt);
+        timeline_->setWatched(watched ? std::optional(watched->spans) : std::nullopt);
+    };
+    seen_ = new SeenWatch(session_, *canvas_, *this, show_watched, this);
     card_ = new CardDock({session_, *docks_, *events_, *ground_});
     mosaic_ = new MosaicPanel({session_, overlays_, *ground_});
     docks_->add(DockId::mosaic, tr("Mosaic"), mosaic_);

@@ -155,6 +155,26 @@ class TimelineViewTest : public QObject {
         QCOMPARE(view.grab().toImage(), before);
     }
 
+    void whatWasWatchedHasARowWhileThatIsKnown() {
+        TimelineView view;
+        const int height = view.sizeHint().height();
+        view.setTimes(times(100));
+        view.setWatched(std::vector<FrameSpan>());
+        QVERIFY(view.sizeHint().height() > height);
+        view.resize(600, view.sizeHint().height());
+        const QImage none = view.grab().toImage();
+        view.setWatched(std::vector<FrameSpan>{{20, 39}, {60, 60}});
+        const QImage some = view.grab().toImage();
+        const auto differs = [&](double frame) {
+            const int x = static_cast<int>(view.axis().xOf(frame));
+            return some.copy(x, 0, 1, some.height()) != none.copy(x, 0, 1, none.height());
+        };
+        QVERIFY(differs(25) && differs(39.5) && differs(60.5));
+        QVERIFY(!differs(10) && !differs(50) && !differs(80));
+        view.setTimes(times(100));
+        QCOMPARE(view.sizeHint().height(), height);
+    }
+
     void withoutAVideoItIsEmptyAndHarmless() {
         TimelineView view;
         view.resize(600, 104);
