@@ -28,8 +28,10 @@
 #include "review/events/event_review.h"
 #include "review/events/events_dock.h"
 #include "review/events/events_panel.h"
+#include "review/inspector_panel.h"
 #include "review/mosaic/mosaic_panel.h"
 #include "review/mosaic/mosaic_view.h"
+#include "review/track_inspector.h"
 #include "review/tracks/like_tracks.h"
 #include "review/tracks_panel.h"
 #include "review/watch/seen_watch.h"
@@ -115,6 +117,11 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
                        [this] { return earth_->earth().clockOrigin(); }});
     whenAny(&earth_->earth(), status_, &StatusFields::showPlace, &VideoEarth::changed);
     whenAny(&earth_->earth(), status_, &StatusFields::showClock, &VideoEarth::changed);
+    TrackInspector& inspector = review_->inspector().track();
+    inspector.setCourse([this](FrameIndex frame, const OrientedBox& box) {
+        return earth_->earth().courseOf(frame, {box.centre.x, box.centre.y}, box.heading);
+    });
+    whenAny(&earth_->earth(), &inspector, &TrackInspector::showCourse, &VideoEarth::changed);
     labelling_ = new LabelWorkspace(
         {session_, *canvas_, *timeline_, *label_rows_, *messages_, *actions_, *docks_, keys_, *this});
     evaluation_->join(*labelling_);

@@ -55,6 +55,7 @@ class ReviewDocks : public QObject {
     MotionStatisticsPanel& statistics() { return *statistics_; }
     SweepPanel& sweeps() { return *sweeps_; }
     TracksPanel& tracks() { return *tracks_; }
+    InspectorPanel& inspector() { return *inspector_; }
     /// What is done when somebody asks for what the tracks did: TracksPanel::setDoings().
     void setDoingsWanted(std::function<void()> want) { want_doings_ = std::move(want); }
     /// What is done when the list asks how like tracks are to one: TracksPanel::setLikeness().
