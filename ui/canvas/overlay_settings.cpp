@@ -1,5 +1,7 @@
 #include "canvas/overlay_settings.h"
 
+#include <utility>
+
 #include "canvas/layers/overlay_table.h"
 
 namespace eyrie::ui {
@@ -24,12 +26,18 @@ void OverlaySettings::adopt(Value& field, Value value) {
 
 void OverlaySettings::setVisible(OverlayKind kind, bool visible) {
     OverlayProfile profile = profile_;
-    profile.set(kind, visible);
+    profile.set(kind, visible || hidden_);
     setProfile(profile);
 }
 
 void OverlaySettings::setProfile(const OverlayProfile& profile) {
-    adopt(profile_, profile);
+    if (!std::exchange(hidden_, false)) return adopt(profile_, profile);
+    profile_ = profile;
+    emit changed();
+}
+
+void OverlaySettings::setHidden(bool hidden) {
+    adopt(hidden_, hidden);
 }
 
 void OverlaySettings::setPalette(PaletteKind palette) {

@@ -26,7 +26,15 @@ class OverlaySettings : public QObject {
     bool isVisible(OverlayKind kind) const { return profile_.visible.contains(kind); }
     void setVisible(OverlayKind kind, bool visible);
     const OverlayProfile& profile() const { return profile_; }
+    /// Ends the hiding of all.
     void setProfile(const OverlayProfile& profile);
+
+    /// Hides all for the moment; which of them are shown otherwise stays as it is. Switching one on or off ends it and
+    /// shows that one.
+    void setHidden(bool hidden);
+    bool hidden() const { return hidden_; }
+    /// Whether a kind is drawn now.
+    bool isDrawn(OverlayKind kind) const { return !hidden_ && isVisible(kind); }
 
     const OverlayStyle& style() const { return style_; }
     PaletteKind palette() const { return palette_; }
@@ -46,6 +54,7 @@ class OverlaySettings : public QObject {
     void adopt(Value& field, Value value);
 
     OverlayProfile profile_;
+    bool hidden_ = false;
     OverlayStyle style_;
     PaletteKind palette_ = PaletteKind::thesis;
 };

@@ -217,10 +217,11 @@ void VideoView::paint(QPainter& painter) const {
     const FrameResult& result = frame_.result ? *frame_.result : nothing_found;
     const OverlayScene scene{frame_, result, transform_, settings_.style(), selected_track_, view, captions};
     for (const auto& [kind, layer] : layers_)
-        if (settings_.isVisible(kind) && (frame_.result || !layer->needsResult())) layer->paint(painter, scene);
-    if (frame_.result && tool_ == nullptr) paintInspectedArea(painter);
+        if (settings_.isDrawn(kind) && (frame_.result || !layer->needsResult())) layer->paint(painter, scene);
     // Marks of the review are in the way of who draws.
-    if (tool_ == nullptr) paintPlaceMark(painter);
+    const bool marked = tool_ == nullptr && !settings_.hidden();
+    if (frame_.result && marked) paintInspectedArea(painter);
+    if (marked) paintPlaceMark(painter);
     paintBadge(painter);
     if (tool_ != nullptr) tool_->paint(painter, {transform_, frame_.image, QRectF(rect())});
 }
@@ -352,7 +353,7 @@ void VideoView::mouseReleaseEvent(QMouseEvent* event) {
     const QPointF point = transform_.imageFromView(event->position());
     const double margin = kHitMargin / transform_.scaleAt(point);
     std::optional<TrackId> clicked;
-    if (settings_.isVisible(TrackLayer::kKind)) {
+    if (settings_.isDrawn(TrackLayer::kKind)) {
         clicked = trackAt(frame_.result->tracks, settings_.style(), point, margin);
         if (!clicked) clicked = trackAt(frame_.doubtful, settings_.style(), point, margin);
     }

@@ -19,6 +19,7 @@
 #include "label/label_actions.h"
 #include "label/label_classes.h"
 #include "widgets/wiring.h"
+#include "workspace/window_actions.h"
 
 namespace eyrie::ui {
 
@@ -197,6 +198,9 @@ void LabelCommands::escape() {
     } else if (!parts_.around.canvas.hasFocus()) {
         parts_.around.canvas.setFocus();
     } else if (!parts_.tool.cancel()) {
+        QAction* full_screen = parts_.around.actions.full_screen;
+        const bool chosen = !parts_.labels.selection().empty() || !parts_.proposals.selection().empty();
+        if (!chosen && full_screen->isChecked()) full_screen->trigger();
         parts_.proposals.select(std::nullopt);
         parts_.labels.select(std::nullopt);
     }

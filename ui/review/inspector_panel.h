@@ -37,6 +37,7 @@ class InspectorPanel : public QWidget {
 
  public:
     explicit InspectorPanel(ProjectSession& session, QWidget* parent = nullptr);
+    TrackInspector& track() { return *track_; }
 
  private:
     void showFrame(const ViewFrame& frame);

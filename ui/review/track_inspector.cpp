@@ -175,6 +175,7 @@ void TrackInspector::showNow() {
                                      [](const TrackFrame& state, FrameIndex frame) { return state.frame < frame; });
     const bool lives = at != states_.end() && at->frame == frame_;
     for (QLabel* label : {position_, heading_, speed_now_, size_now_}) label->setText(QStringLiteral("–"));
+    heading_->setToolTip({});
     if (!lives) {
         now_->setText(tr("absent"));
         return;
@@ -182,10 +183,29 @@ void TrackInspector::showNow() {
     const TrackState& state = at->state;
     now_->setText(QString::fromLatin1(nameOf(state.status)) + QStringLiteral(", ") + shownName(state.origin));
     position_->setText(tr("%1, %2 px").arg(numberText(state.box.centre.x, 1), numberText(state.box.centre.y, 1)));
-    heading_->setText(tr("%1°").arg(numberText(degreesFromRadians(state.box.heading), 0)));
+    showHeading(state.box);
     const SceneScale here = scale_.at(state.box.centre);
     speed_now_->setText(speedText(speedOf(state), here));
     size_now_->setText(sizeText(state.box.length, state.box.width, here));
+}
+
+void TrackInspector::showHeading(const OrientedBox& box) {
+    // What rounds to a whole turn is none.
+    const auto text = [](double degrees) { return numberText(std::fmod(std::round(degrees), 360), 0); };
+    if (const auto course_deg = course_of_(frame_, box)) {
+        heading_->setText(tr("%1° from north").arg(text(*course_deg)));
+        heading_->setToolTip(tr("Over the ground, clockwise from north. In the image: %1° clockwise from the right")
+                                 .arg(text(degreesFromRadians(box.heading))));
+        return;
+    }
+    heading_->setText(tr("%1° in the image").arg(text(degreesFromRadians(box.heading))));
+    heading_->setToolTip(
+        tr("Clockwise from the right of the image; it changes when the camera turns. The course from "
+           "north is shown where metadata or control points tell where the video lies on the earth"));
+}
+
+void TrackInspector::showCourse() {
+    if (!states_.empty()) showNow();
 }
 
 QString TrackInspector::text() const {

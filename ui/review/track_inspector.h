@@ -1,6 +1,9 @@
 #pragma once
 
 #include <QWidget>
+#include <functional>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/values/scene_scale.h"
@@ -30,7 +33,13 @@ class TrackInspector : public QWidget {
     /// frame; empty: not known.
     void showScore(const QString& score) { showOrDash(score_, score); }
     void showDetection(const QString& probability) { showOrDash(detection_, probability); }
+    /// Who knows where a box of a frame points to over the ground: degrees clockwise from north; nothing where nobody
+    /// does, and then the heading in the image is shown.
+    using CourseOf = std::function<std::optional<double>(FrameIndex frame, const OrientedBox& box)>;
+    void setCourse(CourseOf course_of) { course_of_ = std::move(course_of); }
     void setCurrentFrame(FrameIndex frame);
+    /// The course may be another now.
+    void showCourse();
     void clear();
     TrackId track() const { return track_; }
     /// All lines as "name<tab>value".
@@ -45,12 +54,14 @@ class TrackInspector : public QWidget {
     static void showOrDash(QLabel* label, const QString& text);
     void showWhole();
     void showNow();
+    void showHeading(const OrientedBox& box);
     void activate(bool last);
 
     TrackId track_ = 0;
     std::vector<TrackFrame> states_;
     bool rate_assumed_ = false;
     SceneScale scale_;
+    CourseOf course_of_ = [](FrameIndex, const OrientedBox&) { return std::nullopt; };
     TrackClass track_class_ = TrackClass::unknown;
     FrameIndex frame_ = 0;
     QStackedLayout* stack_;

@@ -28,8 +28,10 @@
 #include "review/events/event_review.h"
 #include "review/events/events_dock.h"
 #include "review/events/events_panel.h"
+#include "review/inspector_panel.h"
 #include "review/mosaic/mosaic_panel.h"
 #include "review/mosaic/mosaic_view.h"
+#include "review/track_inspector.h"
 #include "review/tracks/like_tracks.h"
 #include "review/tracks_panel.h"
 #include "review/watch/seen_watch.h"
@@ -116,6 +118,11 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     whenAny(&earth_->earth(), status_, &StatusFields::showPlace, &VideoEarth::changed);
     whenAny(&earth_->earth(), this, &MainWindow::showClock, &VideoEarth::clockChanged);
     showClock();
+    TrackInspector& inspector = review_->inspector().track();
+    inspector.setCourse([this](FrameIndex frame, const OrientedBox& box) {
+        return earth_->earth().courseOf(frame, {box.centre.x, box.centre.y}, box.heading);
+    });
+    whenAny(&earth_->earth(), &inspector, &TrackInspector::showCourse, &VideoEarth::changed);
     labelling_ = new LabelWorkspace(
         {session_, *canvas_, *timeline_, *label_rows_, *messages_, *actions_, *docks_, keys_, *this});
     evaluation_->join(*labelling_);
@@ -124,13 +131,15 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     files_ =
         new OpenedFiles({session_, settings_, *actions_, *messages_, *guard_, *run_bar_, *welcome_, *canvas_, *this});
     live_ = new LiveWatching({session_, settings_, *actions_, *guard_, [this] { files_->rememberView(); }, *this});
-    commands_ = new WindowCommands(
-        {session_, *actions_, *canvas_, *transport_, *run_bar_, *inspection_, keys_, *labelling_, *this});
+    workspaces_ = new Workspaces(*this, *docks_, overlays_);
+    commands_ = new WindowCommands({session_, *actions_, *canvas_, *transport_, *timeline_, *run_bar_, *inspection_,
+                                    keys_, *labelling_, *workspaces_, *this});
     buildMenus();
     wireCanvas();
     wireSession();
     wireInspection();
     restoreGeometry(settings_.geometry());
+    setWindowState(windowState() & ~Qt::WindowFullScreen);  // a window that was closed so begins with all it has
     buildWorkspaces();
     enableActions();
     updateTitle();
@@ -221,7 +230,6 @@ void MainWindow::start(const StartOptions& options) {
 // ---- wiring ---------------------------------------------------------------------------------------------------------
 
 void MainWindow::buildWorkspaces() {
-    workspaces_ = new Workspaces(*this, *docks_, overlays_);
     for (const WorkspaceKind kind : allWorkspaces())
         bindCommands(this, {{actions_->workspaceAction(kind), [this, kind] { workspaces_->open(kind); }}});
     connect(workspaces_, &Workspaces::leaving, evaluation_, &EvaluationDocks::leaveWorkspace);
@@ -264,8 +272,11 @@ void MainWindow::buildWatching() {
         ground_, like_, [this] { like_->setGround(ground_->ground()); }, &WatchedGround::changed);
     steady_ = new SteadyWatch({session_, *canvas_, *actions_, *ground_}, this);
     watching_ = new WatchCommands({session_, *canvas_, *actions_, *messages_, overlays_, *ground_}, this);
-    seen_ = new SeenWatch(
-        session_, *canvas_, *this, [this](std::optional<double> share) { events_->panel().showSeen(share); }, this);
+    const auto show_watched = [this](const std::optional<WatchedFrames>& watched) {
+        events_->panel().showSeen(watched ? std::optional(watched->share) : std::nullopt);
+        timeline_->setWatched(watched ? std::optional(watched->spans) : std::nullopt);
+    };
+    seen_ = new SeenWatch(session_, *canvas_, *this, show_watched, this);
     card_ = new CardDock({session_, *docks_, *events_, *ground_});
     mosaic_ = new MosaicPanel({session_, overlays_, *ground_});
     docks_->add(DockId::mosaic, tr("Mosaic"), mosaic_);

@@ -1,8 +1,10 @@
 #include "window/window_commands.h"
 
+#include <QEvent>
 #include <QMainWindow>
 #include <QMessageBox>
 
+#include "canvas/timeline/timeline_view.h"
 #include "canvas/video_view.h"
 #include "chain/recording/run_recorder.h"
 #include "label/label_workspace.h"
@@ -13,6 +15,7 @@
 #include "window/bars/transport_bar.h"
 #include "workspace/key_sheet.h"
 #include "workspace/window_actions.h"
+#include "workspace/workspaces.h"
 
 namespace eyrie::ui {
 
@@ -25,6 +28,7 @@ WindowCommands::WindowCommands(const CommandParts& parts) : QObject(&parts.windo
     bindPlayback();
     bindView();
     bindHelp();
+    parts_.window.installEventFilter(this);
 }
 
 // ---- runs -----------------------------------------------------------------------------------------------------------
@@ -105,17 +109,32 @@ void WindowCommands::bindView() {
 }
 
 void WindowCommands::escape() {
-    if (!parts_.canvas.hasFocus())
+    if (parts_.canvas.isVisible() && !parts_.canvas.hasFocus())
         parts_.canvas.setFocus();
     else if (parts_.inspection.hasChoice())
         parts_.inspection.clear();
     else if (parts_.window.isFullScreen())
         parts_.actions.full_screen->trigger();
+    else
+        parts_.timeline.showAll();
 }
 
 void WindowCommands::showFullScreen(bool on) {
     const Qt::WindowStates state = parts_.window.windowState();
+    // Before the window grows: its layout is to come back.
+    if (on) parts_.workspaces.showPictureAlone(true);
     parts_.window.setWindowState(on ? state | Qt::WindowFullScreen : state & ~Qt::WindowFullScreen);
+}
+
+void WindowCommands::followFullScreen() {
+    const bool on = parts_.window.isFullScreen();
+    parts_.workspaces.showPictureAlone(on);
+    parts_.actions.full_screen->setChecked(on);
+}
+
+bool WindowCommands::eventFilter(QObject* watched, QEvent* event) {
+    if (watched == &parts_.window && event->type() == QEvent::WindowStateChange) followFullScreen();
+    return QObject::eventFilter(watched, event);
 }
 
 // ---- help -----------------------------------------------------------------------------------------------------------

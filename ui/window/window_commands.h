@@ -11,9 +11,11 @@ class KeyBindings;
 class LabelWorkspace;
 class ProjectSession;
 class RunBar;
+class TimelineView;
 class TransportBar;
 class VideoView;
 class WindowActions;
+class Workspaces;
 
 /// What the window's commands work on. All must outlive them.
 struct CommandParts {
@@ -21,10 +23,12 @@ struct CommandParts {
     WindowActions& actions;
     VideoView& canvas;
     TransportBar& transport;
+    TimelineView& timeline;
     RunBar& run_bar;
     Inspection& inspection;
     KeyBindings& keys;
     LabelWorkspace& labelling;
+    Workspaces& workspaces;
     QMainWindow& window;
 };
 
@@ -39,14 +43,19 @@ class WindowCommands : public QObject {
     /// Starts a run with what stands in the bar.
     void startRun();
 
+ protected:
+    bool eventFilter(QObject* watched, QEvent* event) override;
+
  private:
     void bindRun();
     void bindPlayback();
     void bindView();
     void bindHelp();
-    /// One step back: out of a field, out of the selection, out of the full screen.
+    /// One step back: out of a field, out of the selection, out of the full screen, out of a part of the timeline.
     void escape();
     void showFullScreen(bool on);
+    /// The window manager may have ended or begun it.
+    void followFullScreen();
     void showKeys();
     void showAbout();
 

@@ -284,6 +284,7 @@ void WindowActions::addOverlays(OverlaySettings& overlays) {
     }
     connect(&overlays, &OverlaySettings::changed, this, [this, &overlays] {
         for (const OverlayRow& row : overlayTable()) overlay.at(row.kind)->setChecked(overlays.isVisible(row.kind));
+        hide_overlays->setChecked(overlays.hidden());
     });
     const OverlayStyle& style = overlays.style();
     labels = addToggle(tr("Track la&bels"), {nullptr, {onOverlay(Qt::Key_B)}}, style.labels);
@@ -294,6 +295,10 @@ void WindowActions::addOverlays(OverlaySettings& overlays) {
     shorter_vectors = add(tr("Shorter vectors"), {nullptr, {onOverlay(Qt::Key_PageDown)}});
     colour_blind =
         addToggle(tr("Colour-blind safe colours"), {nullptr, {}}, overlays.palette() == PaletteKind::colour_blind);
+    hide_overlays =
+        addToggle(tr("&Hide all overlays"),
+                  {nullptr, {onOverlay(Qt::Key_0)}, QT_TR_NOOP("Show the picture alone; again: what was drawn before")},
+                  overlays.hidden());
     const auto scale_vectors = [&overlays](double factor) {
         overlays.setVectorLengthFactor(std::clamp(overlays.style().vector_length_factor * factor, 1.0, 100.0));
     };
@@ -303,6 +308,7 @@ void WindowActions::addOverlays(OverlaySettings& overlays) {
                   {trails, [&overlays](bool on) { overlays.setTrails(on); }},
                   {rejected, [&overlays](bool on) { overlays.setRejectedDetections(on); }},
                   {tentative, [&overlays](bool on) { overlays.setTentativeTracks(on); }},
+                  {hide_overlays, [&overlays](bool on) { overlays.setHidden(on); }},
                   {colour_blind,
                    [&overlays](bool on) { overlays.setPalette(on ? PaletteKind::colour_blind : PaletteKind::thesis); }},
               });

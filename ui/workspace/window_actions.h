@@ -40,7 +40,7 @@ class WindowActions : public QObject {
     QAction *why, *live_preview, *compare, *train;
     std::array<QAction*, kWorkspaceCount> workspace;
     std::map<OverlayKind, QAction*> overlay;
-    QAction *labels, *trails, *rejected, *tentative, *longer_vectors, *shorter_vectors, *colour_blind;
+    QAction *labels, *trails, *rejected, *tentative, *longer_vectors, *shorter_vectors, *colour_blind, *hide_overlays;
     QAction *keys, *about;
 
  private:

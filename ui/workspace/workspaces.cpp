@@ -1,6 +1,10 @@
 #include "workspace/workspaces.h"
 
+#include <QDockWidget>
 #include <QMainWindow>
+#include <QStatusBar>
+#include <QToolBar>
+#include <utility>
 
 #include "canvas/layers/overlay_table.h"
 #include "workspace/dock_registry.h"
@@ -35,16 +39,36 @@ Workspaces::Workspaces(QMainWindow& window, DockRegistry& docks, OverlaySettings
 }
 
 void Workspaces::remember() {
-    look(current_) = {window_.saveState(kLayoutVersion), overlays_.profile()};
+    look(current_) = {alone_ ? layout_to_return_ : window_.saveState(kLayoutVersion), overlays_.profile()};
+}
+
+void Workspaces::showBars(bool shown) {
+    for (QToolBar* bar : window_.findChildren<QToolBar*>(QString(), Qt::FindDirectChildrenOnly)) bar->setVisible(shown);
+    window_.statusBar()->setVisible(shown);
+}
+
+void Workspaces::showPictureAlone(bool alone) {
+    if (alone == std::exchange(alone_, alone)) return;
+    if (alone) layout_to_return_ = window_.saveState(kLayoutVersion);
+    showBars(!alone);
+    if (!alone) {
+        window_.restoreState(layout_to_return_, kLayoutVersion);
+        return;
+    }
+    for (const DockId id : allDocks())
+        if (docks_.dock(id) != nullptr) docks_.dock(id)->hide();
 }
 
 void Workspaces::show(WorkspaceKind kind) {
     current_ = kind;
+    const bool alone = std::exchange(alone_, false);
+    if (alone) showBars(true);
     // Overlays first: docks that come up may switch them for as long as they are looked at.
     overlays_.setProfile(look(kind).overlays);
     docks_.arrange(kind);
     if (!look(kind).layout.isEmpty()) window_.restoreState(look(kind).layout, kLayoutVersion);
     emit opened(kind);
+    if (alone) showPictureAlone(true);
 }
 
 void Workspaces::open(WorkspaceKind kind) {

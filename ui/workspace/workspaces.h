@@ -29,6 +29,10 @@ class Workspaces : public QObject {
     /// Makes the workspace that is shown what it was when it was opened for the first time.
     void reset();
 
+    /// Whether the picture is shown without docks, tool bars and status bar, also that of a workspace that is opened
+    /// then. What is kept of a workspace, and comes back, is its layout with them.
+    void showPictureAlone(bool alone);
+
     /// All workspaces, for settings.
     QVariantMap state();
     /// Shows the workspace that was shown when state() was asked for; with an empty map review, as at the first start.
@@ -46,6 +50,7 @@ class Workspaces : public QObject {
     };
     Look& look(WorkspaceKind kind) { return looks_[static_cast<std::size_t>(kind)]; }
     void remember();
+    void showBars(bool shown);
     void show(WorkspaceKind kind);
 
     QMainWindow& window_;
@@ -53,6 +58,8 @@ class Workspaces : public QObject {
     OverlaySettings& overlays_;
     WorkspaceKind current_ = WorkspaceKind::review;
     std::array<Look, kWorkspaceCount> looks_;
+    bool alone_ = false;           ///< the picture is
+    QByteArray layout_to_return_;  ///< while it is
 };
 
 }  // namespace eyrie::ui

@@ -92,6 +92,18 @@ class OverlaysTest : public QObject {
         for (int id = 1; id < 60; ++id) QVERIFY(stackColour(id) != stackColour(id + 1));
     }
 
+    void whatIsHiddenForAMomentIsNotDrawn() {
+        ViewFrame frame = frameWith(empty());
+        frame.index = 7;
+        view_->setFrame(frame);
+        view_->setStacks(7, {{1, {100, 100}, 0, 30, {{90, 95}, {108, 104}}}});
+        showOnly(ImageStackLayer::kKind);
+        settings_.setHidden(true);
+        QCOMPARE(count(view_->picture(), stackColour(1)), 0);
+        settings_.setHidden(false);
+        QVERIFY(count(view_->picture(), stackColour(1)) > 40);
+    }
+
     void zonesAppearInTheirOwnColoursWithTheirNames() {
         ViewFrame frame = frameWith(empty());
         frame.index = 7;

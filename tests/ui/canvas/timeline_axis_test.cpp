@@ -67,6 +67,21 @@ class TimelineAxisTest : public QObject {
         QCOMPARE(a.xOf(0), first);
     }
 
+    void aPartFillsTheSpan() {
+        TimelineAxis a = axis(1000);
+        a.showFrames(400, 499);
+        QCOMPARE(a.xOf(400), 100.0);
+        QCOMPARE(a.xOf(500), 900.0);
+        a.showFrames(600, 601);  // few are not blown up
+        QCOMPARE(a.pixelsPerFrame(), TimelineAxis::kMaxPixelsPerFrame);
+        QCOMPARE(a.xOf(601), 500.0);
+        a.showFrames(990, 1010);
+        QCOMPARE(a.lastVisible(), 999);
+        QVERIFY(a.xOf(990) >= a.left() && std::abs(a.xOf(1000) - a.right()) < 1e-6);
+        a.showFrames(-20, 2000);
+        QVERIFY(a.showsAll());
+    }
+
     void panningStopsAtTheEnds() {
         TimelineAxis a = axis(1000);
         a.zoomAround(500, 5);

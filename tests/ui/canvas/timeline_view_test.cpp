@@ -3,6 +3,7 @@
 #include <QSignalSpy>
 #include <QTest>
 #include <QWheelEvent>
+#include <cmath>
 
 #include "ui/support/ui_test.h"
 
@@ -44,6 +45,21 @@ class TimelineViewTest : public QObject {
         QApplication::sendEvent(&view, &event);
         QCOMPARE(view.axis().frameAt(cursor.x()), under);
         QVERIFY(!view.axis().showsAll());
+    }
+
+    void itZoomsByTimeAndNotByCountsOfFrames() {
+        TimelineView view;
+        view.resize(700, 104);
+        // One second of 100 Hz, then one frame a second.
+        std::vector<std::int64_t> uneven;
+        for (int frame = 0; frame < 100; ++frame) uneven.push_back(frame * 10'000);
+        for (int second = 1; second <= 100; ++second) uneven.push_back(second * 1'000'000);
+        view.setTimes(uneven);
+        view.showAround(150, 160, 5'000'000);
+        const TimelineAxis& axis = view.axis();
+        QVERIFY(std::abs(axis.xOf(145) - axis.left()) < 1e-6 && std::abs(axis.xOf(166) - axis.right()) < 1e-6);
+        view.showAll();
+        QVERIFY(axis.showsAll());
     }
 
     void qualityHasAColourPerState() {
@@ -153,6 +169,26 @@ class TimelineViewTest : public QObject {
         QCOMPARE(view.rulerText(1'000'000), QString());
         view.setClock({});
         QCOMPARE(view.grab().toImage(), before);
+    }
+
+    void whatWasWatchedHasARowWhileThatIsKnown() {
+        TimelineView view;
+        const int height = view.sizeHint().height();
+        view.setTimes(times(100));
+        view.setWatched(std::vector<FrameSpan>());
+        QVERIFY(view.sizeHint().height() > height);
+        view.resize(600, view.sizeHint().height());
+        const QImage none = view.grab().toImage();
+        view.setWatched(std::vector<FrameSpan>{{20, 39}, {60, 60}});
+        const QImage some = view.grab().toImage();
+        const auto differs = [&](double frame) {
+            const int x = static_cast<int>(view.axis().xOf(frame));
+            return some.copy(x, 0, 1, some.height()) != none.copy(x, 0, 1, none.height());
+        };
+        QVERIFY(differs(25) && differs(39.5) && differs(60.5));
+        QVERIFY(!differs(10) && !differs(50) && !differs(80));
+        view.setTimes(times(100));
+        QCOMPARE(view.sizeHint().height(), height);
     }
 
     void withoutAVideoItIsEmptyAndHarmless() {

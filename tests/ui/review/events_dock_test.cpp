@@ -4,6 +4,7 @@
 #include <QTableView>
 #include <QTest>
 #include <QVBoxLayout>
+#include <cstdlib>
 
 #include "canvas/timeline/timeline_view.h"
 #include "canvas/video_view.h"
@@ -88,16 +89,19 @@ class EventsDockTest : public QObject {
     static bool waitForEvents(EventsWindow& window, int least) {
         return QTest::qWaitFor([&] { return window.events().model().rowCount() >= least; }, kPatience_ms);
     }
-    static std::unique_ptr<EventsWindow> windowWithScene() {
+    static std::unique_ptr<EventsWindow> windowWithScene(int frames = 60) {
         auto window = std::make_unique<EventsWindow>();
         window->resize(1280, 720);
         window->show();
         if (!QTest::qWaitForWindowActive(window.get())) return nullptr;
-        return test::openAndWait(window->session(), test::sceneUnderTest(60)) ? std::move(window) : nullptr;
+        return test::openAndWait(window->session(), test::sceneUnderTest(frames)) ? std::move(window) : nullptr;
     }
-    static std::unique_ptr<EventsWindow> windowWithEvents() {
-        auto window = windowWithScene();
-        if (!window || !test::runAndWait(window->session())) return nullptr;
+    /// Only the first 60 frames are searched.
+    static std::unique_ptr<EventsWindow> windowWithEvents(int frames = 60) {
+        auto window = windowWithScene(frames);
+        if (!window) return nullptr;
+        window->session().settings().range = {0, 59};
+        if (!test::runAndWait(window->session())) return nullptr;
         lowerLimits(*window);
         return waitForEvents(*window, 2) ? std::move(window) : nullptr;
     }
@@ -126,6 +130,27 @@ class EventsDockTest : public QObject {
         QCOMPARE(window->events().panel().currentId(), idAt(*window, 0));
         QVERIFY(test::shows(window->session(), found.frameAt(0)));
         QCOMPARE(window->session().selectedTrack(), std::optional(found.eventAt(0)->tracks.front()));
+    }
+
+    void ofALongVideoTheTimelineShowsTheEventAndFiveSecondsAround() {
+        const auto window = windowWithEvents(3100);  // of 25 Hz
+        QVERIFY(window);
+        const TimelineAxis& axis = window->timeline().axis();
+        QVERIFY(axis.showsAll());
+        const int id = idAt(*window, 0);
+        window->events().show(id);
+        const FrameSpan frames = window->events().model().found()->framesAt(0);
+        QVERIFY(!axis.showsAll());
+        QCOMPARE(axis.firstVisible(), 0);
+        QVERIFY2(std::abs(axis.lastVisible() - (frames.last + 125)) <= 1,
+                 qPrintable(QStringLiteral("%1, %2").arg(axis.lastVisible()).arg(frames.last)));
+    }
+
+    void ofAShortVideoItShowsAll() {
+        const auto window = windowWithEvents();
+        QVERIFY(window);
+        window->events().show(idAt(*window, 0));
+        QVERIFY(window->timeline().axis().showsAll());
     }
 
     void aPlaceOutOfViewIsCentredAndAWholePictureIsLeftAlone() {

@@ -54,6 +54,28 @@ class InspectorTest : public QObject {
         QVERIFY(inspector.text().contains(QStringLiteral("absent")));
     }
 
+    void theCourseIsFromNorthWhereThatIsKnown() {
+        TrackInspector inspector;
+        inspector.showTrack(4, life(), {0.25, 25, true}, TrackClass::unknown);
+        inspector.setCurrentFrame(12);
+        QVERIFY2(inspector.text().contains(QStringLiteral("53° in the image")), qPrintable(inspector.text()));
+        std::optional<double> course = 143.4;
+        FrameIndex asked = -1;
+        inspector.setCourse([&](FrameIndex frame, const OrientedBox&) {
+            asked = frame;
+            return course;
+        });
+        inspector.showCourse();
+        QVERIFY2(inspector.text().contains(QStringLiteral("143° from north")), qPrintable(inspector.text()));
+        QCOMPARE(asked, 12);
+        course = 359.7;
+        inspector.setCurrentFrame(13);
+        QVERIFY2(inspector.text().contains(QStringLiteral("\t0° from north")), qPrintable(inspector.text()));
+        course.reset();
+        inspector.showCourse();
+        QVERIFY(inspector.text().contains(QStringLiteral("53° in the image")));
+    }
+
     void showsPixelsWithoutGsd() {
         TrackInspector inspector;
         inspector.showTrack(4, life(), {0.25, 25, false}, TrackClass::unknown);

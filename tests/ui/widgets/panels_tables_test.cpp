@@ -4,6 +4,7 @@
 #include <QPushButton>
 #include <QSignalSpy>
 #include <QSlider>
+#include <QStandardItemModel>
 #include <QTableView>
 #include <QTest>
 #include <QToolTip>
@@ -14,6 +15,8 @@
 #include "review/tracks_panel.h"
 #include "ui/support/ui_test.h"
 #include "widgets/empty_state.h"
+#include "widgets/tables/table_roles.h"
+#include "widgets/tables/table_sort_proxy.h"
 
 namespace eyrie::ui::panels_tables_test {
 
@@ -56,6 +59,37 @@ class TablesTest : public QObject {
         QVERIFY(!panel.emptyState()->isVisible());
         panel.setFilterText(QString());
         QVERIFY(panel.table()->isVisible());
+    }
+
+    void aNumberFindsThatNumberAndTextAnyPart() {
+        QStandardItemModel model(0, 2);
+        const auto add = [&](const QString& text, double number, const QString& note) {
+            auto* cell = new QStandardItem(text);
+            cell->setData(number, sort_role);
+            auto* words = new QStandardItem(note);
+            words->setData(note, sort_role);
+            model.appendRow({cell, words});
+        };
+        add(QStringLiteral("5"), 5, QStringLiteral("north"));
+        add(QStringLiteral("15"), 15, QStringLiteral("gate 51"));
+        add(QStringLiteral("51"), 51, QStringLiteral("south"));
+        add(QStringLiteral("5.00 km/h"), 5, QStringLiteral("south"));
+        add(QStringLiteral("3, 5"), 3, QStringLiteral("south"));
+        add(QStringLiteral("1,005"), 1005, QStringLiteral("south"));
+        TableSortProxy proxy;
+        proxy.setSourceModel(&model);
+        const auto found = [&](const char* text) {
+            proxy.setFilterText(QString::fromUtf8(text));
+            QStringList rows;
+            for (int row = 0; row < proxy.rowCount(); ++row) rows << proxy.index(row, 0).data().toString();
+            return rows.join(QStringLiteral(" | "));
+        };
+        QCOMPARE(found("5"), QStringLiteral("5 | 15 | 5.00 km/h | 3, 5"));  // 15 by its note, which is text
+        QCOMPARE(found("15"), QStringLiteral("15"));
+        QCOMPARE(found("1005"), QStringLiteral("1,005"));
+        QCOMPARE(found("5.0"), QStringLiteral("5.00 km/h"));
+        QCOMPARE(found("gat 15"), QStringLiteral("15"));
+        QCOMPARE(found("outh 5"), QStringLiteral("5.00 km/h | 3, 5"));
     }
 
     void choosingARunTellsIt() {

@@ -93,6 +93,21 @@ class EventsWindowTest : public QObject {
         QVERIFY(told(QStringLiteral("no/where")));
     }
 
+    void escapeShowsTheWholeTimelineWhenNothingIsSelected() {
+        const auto window = windowWithEvents();
+        QVERIFY(window);
+        window->events().show(window->events().model().recordAt(0)->id);
+        QVERIFY(window->session().selectedTrack());
+        window->timeline().showAround(10, 20, 0);
+        const TimelineAxis& axis = window->timeline().axis();
+        window->canvas().setFocus();
+        QTest::keyClick(window.get(), Qt::Key_Escape);
+        QVERIFY(!window->session().selectedTrack());
+        QVERIFY(!axis.showsAll());
+        QTest::keyClick(window.get(), Qt::Key_Escape);
+        QVERIFY(axis.showsAll());
+    }
+
     void theVideoKeepsHalfOfASmallWindow() {
         const auto window = windowWithEvents();
         QVERIFY(window);

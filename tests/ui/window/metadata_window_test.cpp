@@ -1,20 +1,26 @@
 #include <QComboBox>
 #include <QLabel>
 #include <QLineEdit>
+#include <QRegularExpression>
 #include <QStatusBar>
 #include <QTest>
+#include <cmath>
+#include <numbers>
 
 #include "canvas/layers/north_layer.h"
 #include "canvas/video_view.h"
 #include "review/earth/earth_dock.h"
 #include "review/earth/metadata_panel.h"
 #include "review/earth/video_earth.h"
+#include "review/inspector_panel.h"
+#include "review/track_inspector.h"
 #include "store/review/control_points.h"
 #include "support/shared_data.h"
 #include "ui/support/ui_test.h"
 #include "ui/window/flown_video.h"
 #include "ui/window/window_with_run.h"
 #include "widgets/empty_state.h"
+#include "window/docks/review_docks.h"
 #include "workspace/dock_registry.h"
 
 namespace eyrie::ui::metadata_window_test {
@@ -116,6 +122,28 @@ class MetadataWindowTest : public QObject {
         QTRY_VERIFY(metresApart(placeTold(*window), test::flownPlace(30, {60, 40})) < 0.5);
         emit window->canvas().cursorMoved(std::nullopt);
         QVERIFY(!placeTold(*window));
+    }
+
+    void theInspectorTellsTheCourseFromNorth() {
+        const auto window = windowOver(test::writeFlownVideo(*home_ / "", kFlownFrames));
+        QVERIFY(window);
+        const VideoEarth& earth = window->earth().earth();
+        // The top of the picture is north: what points right drives east.
+        const double kQuarter = std::numbers::pi / 2;
+        for (int turn = 0; turn < 4; ++turn) {
+            const auto course = earth.courseOf(5, {120, 90}, turn * kQuarter);
+            QVERIFY(course);
+            QVERIFY2(std::abs(std::remainder(*course - 90 * (turn + 1), 360)) < 1,
+                     qPrintable(QString::number(*course)));
+        }
+        TrackFrame driving;
+        driving.frame = 5;
+        driving.state.box = {{120, 90}, 20, 10, kQuarter};
+        TrackInspector& inspector = window->review().inspector().track();
+        inspector.showTrack(1, {driving}, {test::kFlownPixel_m, 25, true}, TrackClass::vehicle);
+        inspector.setCurrentFrame(5);
+        const QRegularExpression south(QStringLiteral("\\t(179|180|181)° from north"));
+        QVERIFY2(inspector.text().contains(south), qPrintable(inspector.text()));
     }
 
     void northIsDrawnWithoutARun() {

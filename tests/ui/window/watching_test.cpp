@@ -7,6 +7,7 @@
 #include <QTimer>
 #include <cmath>
 
+#include "canvas/timeline/timeline_view.h"
 #include "canvas/video_view.h"
 #include "ground/followed_pose.h"
 #include "review/card/card_dock.h"
@@ -373,6 +374,7 @@ class WatchingTest : public QObject {
         window().seen().flush();
         QTRY_VERIFY_WITH_TIMEOUT(share() > 0, kPatience_ms);
         QVERIFY(share() <= 100);
+        QVERIFY2(window().timeline().watched() && !window().timeline().watched()->empty(), "the timeline shows where");
     }
 };
 

@@ -52,6 +52,15 @@ void TimelineAxis::showAll() {
     pixels_per_frame_ = count_ > 0 ? width_ / count_ : 1;
 }
 
+void TimelineAxis::showFrames(FrameIndex first, FrameIndex last) {
+    if (count_ == 0) return;
+    const double smallest = width_ / count_;
+    pixels_per_frame_ =
+        std::clamp(width_ / std::max(1, last - first + 1), smallest, std::max(smallest, kMaxPixelsPerFrame));
+    first_ = (first + last + 1) / 2.0 - width_ / pixels_per_frame_ / 2;
+    limit();
+}
+
 void TimelineAxis::zoomAround(double x, double factor) {
     if (count_ == 0) return;
     const double frame = (x - left_) / pixels_per_frame_ + first_;

@@ -43,6 +43,8 @@ class TimelineAxis {
     FrameIndex lastVisible() const;
 
     void showAll();
+    /// Shows these frames as large as they fit, and others beside them where they are few.
+    void showFrames(FrameIndex first, FrameIndex last);
     /// The frame under `x` stays there.
     void zoomAround(double x, double factor);
     void panBy(double pixels);

@@ -21,6 +21,8 @@ constexpr double kQualityHeight = 14;
 constexpr double kTrackHeight = 14;
 constexpr double kGap = 6;
 constexpr double kMarkHeight = 12;
+constexpr double kWatchedHeight = 12;  ///< of the row: its name must be read
+constexpr double kWatchedBar = 4;
 constexpr double kMarkReach = 5;  ///< px beside a mark that count as on it
 constexpr int kHeight = 104;
 constexpr double kLabelGap = 80;  ///< px from one time on the ruler to the next, at least
@@ -28,7 +30,7 @@ constexpr double kLabelGap = 80;  ///< px from one time on the ruler to the next
 }  // namespace
 
 struct TimelineView::Rows {
-    QRectF ruler, quality, marks, activity, track;
+    QRectF ruler, quality, marks, watched, activity, track;
 };
 
 TimelineView::TimelineView(QWidget* parent) : QWidget(parent) {
@@ -44,6 +46,7 @@ void TimelineView::setTimes(std::vector<std::int64_t> times_us) {
     track_life_.reset();
     run_range_.reset();
     setMarks({}, {});
+    setWatched(std::nullopt);
     seams_ = {};
     axis_.setFrameCount(static_cast<int>(times_us_.size()));
     axis_.showAll();
@@ -104,7 +107,23 @@ void TimelineView::setTrackLife(std::optional<std::pair<FrameIndex, FrameIndex>>
 }
 
 int TimelineView::wantedHeight() const {
-    return kHeight + (marks_.empty() ? 0 : static_cast<int>(kMarkHeight + kGap - 2));
+    return kHeight + (marks_.empty() ? 0 : static_cast<int>(kMarkHeight + kGap - 2)) +
+           (watched_ ? static_cast<int>(kWatchedHeight + kGap - 2) : 0);
+}
+
+void TimelineView::setWatched(std::optional<std::vector<FrameSpan>> spans) {
+    if (spans == watched_) return;
+    const int height = wantedHeight();
+    watched_ = std::move(spans);
+    if (wantedHeight() != height) updateGeometry();
+    update();
+}
+
+bool TimelineView::isWatched(FrameIndex frame) const {
+    if (!watched_) return false;
+    const auto span = std::lower_bound(watched_->begin(), watched_->end(), frame,
+                                       [](const FrameSpan& each, FrameIndex wanted) { return each.last < wanted; });
+    return span != watched_->end() && span->first <= frame;
 }
 
 void TimelineView::setMarks(const QString& row_name, std::vector<TimelineMark> marks,
@@ -138,6 +157,19 @@ void TimelineView::showAll() {
     update();
 }
 
+void TimelineView::showAround(FrameIndex first, FrameIndex last, std::int64_t margin_us) {
+    if (times_us_.empty()) return;
+    const auto end = static_cast<FrameIndex>(times_us_.size()) - 1;
+    const auto time_of = [&](FrameIndex frame) {
+        return times_us_[static_cast<std::size_t>(std::clamp(frame, 0, end))];
+    };
+    const auto from = std::lower_bound(times_us_.begin(), times_us_.end(), time_of(first) - margin_us);
+    const auto behind = std::upper_bound(times_us_.begin(), times_us_.end(), time_of(last) + margin_us);
+    axis_.showFrames(static_cast<FrameIndex>(from - times_us_.begin()),
+                     static_cast<FrameIndex>(behind - times_us_.begin()) - 1);
+    update();
+}
+
 void TimelineView::layoutAxis() {
     const double gutter = fontMetrics().horizontalAdvance(tr("vectors (max 20000)")) + 18.0;
     axis_.setSpan(gutter, width() - gutter - kRightMargin);
@@ -156,8 +188,9 @@ TimelineView::Rows TimelineView::rows() const {
     rows.track = QRectF(left, height() - kTrackHeight - 4, width, kTrackHeight);
     const double top = rows.quality.bottom() + (marks_.empty() ? 0 : kGap - 2);
     rows.marks = QRectF(left, top, width, marks_.empty() ? 0 : kMarkHeight);
-    rows.activity =
-        QRectF(left, rows.marks.bottom() + kGap, width, rows.track.top() - kGap - rows.marks.bottom() - kGap);
+    rows.watched = QRectF(left, rows.marks.bottom() + (watched_ ? kGap - 2 : 0), width, watched_ ? kWatchedHeight : 0);
+    const double below = rows.watched.bottom() + kGap;
+    rows.activity = QRectF(left, below, width, rows.track.top() - kGap - below);
     return rows;
 }
 
@@ -178,6 +211,7 @@ void TimelineView::paintEvent(QPaintEvent*) {
     name(row.ruler, utc_at_ ? tr("Time (UTC)") : tr("Time"));
     name(row.quality, tr("Registration"));
     if (!marks_.empty()) name(row.marks, marks_name_);
+    if (watched_) name(row.watched, tr("Watched"));
     if (frames_.empty()) {
         name(row.activity, tr("Activity"));
     } else {
@@ -196,6 +230,7 @@ void TimelineView::paintEvent(QPaintEvent*) {
     painter.setClipRect(QRectF(axis_.left() - 1, 0, axis_.right() - axis_.left() + 2, height()));
     paintQuality(painter, row.quality);
     paintMarks(painter, row.marks);
+    paintWatched(painter, row.watched);
     activity().paint(painter, row.activity, axis_);
     paintTrackLife(painter, row.track);
     paintSeams(painter);
@@ -274,6 +309,18 @@ void TimelineView::paintMarks(QPainter& painter, const QRectF& row) const {
                          stroke.colour);
 }
 
+void TimelineView::paintWatched(QPainter& painter, const QRectF& row) const {
+    if (!watched_) return;
+    const QRectF bar(row.left(), row.center().y() - kWatchedBar / 2, row.width(), kWatchedBar);
+    painter.fillRect(bar, palette().color(QPalette::Base));
+    const QColor colour = blend(palette().color(QPalette::WindowText), palette().color(QPalette::Base), 0.4);
+    for (const FrameSpan& span : *watched_) {
+        if (span.last < axis_.firstVisible() || span.first > axis_.lastVisible()) continue;
+        const double from = axis_.xOf(span.first);
+        painter.fillRect(QRectF(from, bar.top(), std::max(1.0, axis_.xOf(span.last + 1) - from), bar.height()), colour);
+    }
+}
+
 void TimelineView::paintTrackLife(QPainter& painter, const QRectF& row) const {
     painter.fillRect(row, palette().color(QPalette::Base));
     if (!track_life_) return;
@@ -320,6 +367,7 @@ QString TimelineView::describeFrame(FrameIndex frame) const {
     QString text = tr("Frame %1, %2").arg(frame).arg(QString::fromStdString(timeText(times_us_[index])));
     if (const QString place = describe_place_ ? describe_place_(frame) : QString(); !place.isEmpty())
         text += QLatin1Char('\n') + place;
+    if (isWatched(frame)) text += tr("\nwatched by somebody");
     if (index >= frames_.size() || !frames_[index].done) return text;
     const TimelineFrame& done = frames_[index];
     switch (done.state) {

@@ -12,6 +12,7 @@
 #include "canvas/timeline/timeline_frame.h"
 #include "canvas/timeline/timeline_marks.h"
 #include "canvas/timeline/timeline_seams.h"
+#include "core/review/seen_frames.h"
 
 namespace eyrie::ui {
 
@@ -51,11 +52,16 @@ class TimelineView : public QWidget {
     const TimelineMarks& marks() const { return marks_; }
     /// Where a mark is drawn; nothing when it is out of view.
     std::optional<QPointF> placeOfMark(int id) const;
+    /// What anybody watched, merged spans, in a thin row of its own, which is there while that is known.
+    void setWatched(std::optional<std::vector<FrameSpan>> spans);
+    const std::optional<std::vector<FrameSpan>>& watched() const { return watched_; }
     void setPalette(PaletteKind palette);
 
     FrameIndex currentFrame() const { return current_; }
     const TimelineAxis& axis() const { return axis_; }
     void showAll();
+    /// Zooms to these frames with so much time of the video before and after them.
+    void showAround(FrameIndex first, FrameIndex last, std::int64_t margin_us);
 
     QSize sizeHint() const override { return {600, wantedHeight()}; }
     QSize minimumSizeHint() const override { return {240, wantedHeight()}; }
@@ -83,6 +89,8 @@ class TimelineView : public QWidget {
     int wantedHeight() const;
     void paintQuality(QPainter& painter, const QRectF& row) const;
     void paintMarks(QPainter& painter, const QRectF& row) const;
+    void paintWatched(QPainter& painter, const QRectF& row) const;
+    bool isWatched(FrameIndex frame) const;
     /// The mark under a place of the widget.
     const TimelineMark* markAt(QPointF place) const;
     void paintTrackLife(QPainter& painter, const QRectF& row) const;
@@ -101,6 +109,7 @@ class TimelineView : public QWidget {
     QString marks_name_;
     TimelineMarks marks_;
     std::function<QString(int id)> describe_mark_;
+    std::optional<std::vector<FrameSpan>> watched_;
     TimelineSeams seams_;
     std::function<QString(FrameIndex)> describe_place_;
     std::function<std::optional<std::int64_t>(std::int64_t)> utc_at_;

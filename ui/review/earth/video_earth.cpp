@@ -1,9 +1,11 @@
 #include "review/earth/video_earth.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/error.h"
+#include "core/geometry/angle.h"
 #include "core/utc_time.h"
 #include "events/stored_events.h"
 #include "session/background/pace.h"
@@ -201,6 +203,15 @@ std::optional<double> VideoEarth::northOf(FrameIndex frame) const {
     }
     const GroundView* view = viewOf(frame);
     return view != nullptr ? view->north_deg : std::nullopt;
+}
+
+std::optional<double> VideoEarth::courseOf(FrameIndex frame, QPointF px, double heading) const {
+    constexpr double kStep_px = 4;  // far enough for what places are rounded to, near enough for any perspective
+    const auto here = placeOf(frame, px);
+    const auto ahead = placeOf(frame, px + kStep_px * QPointF(std::cos(heading), std::sin(heading)));
+    if (!here || !ahead || *here == *ahead) return std::nullopt;
+    const cv::Point2d way = LocalPlane(*here).metresOf(*ahead);
+    return degreesFromRadians(std::atan2(way.x, way.y));
 }
 
 QString VideoEarth::origin() const {

@@ -54,6 +54,9 @@ class VideoEarth : public QObject {
     std::optional<GeoPoint> placeOf(FrameIndex frame, QPointF px) const;
     /// The direction of north in the middle of a frame, degrees clockwise from +x.
     std::optional<double> northOf(FrameIndex frame) const;
+    /// Where something at a pixel points to that has this heading (radians clockwise from +x): degrees clockwise from
+    /// north, in [0, 360).
+    std::optional<double> courseOf(FrameIndex frame, QPointF px, double heading) const;
     /// What a person found on the earth in this video, as it is stored; counts before the metadata.
     const std::vector<ControlPoint>& control() const { return control_; }
     /// What is known of the places; null until that was worked out.

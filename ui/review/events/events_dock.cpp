@@ -28,6 +28,9 @@ namespace eyrie::ui {
 namespace {
 
 const QString kEventsTopic = QStringLiteral("events");
+/// Of shorter videos the whole timeline tells more.
+constexpr std::int64_t kLongVideo_us = 120'000'000;
+constexpr std::int64_t kAroundEvent_us = 5'000'000;
 
 /// What of several events in one place is to be seen: what is to be judged, what matters, what is doubtful.
 int weightOf(Judgement judgement) {
@@ -289,6 +292,7 @@ void EventsDock::show(int id) {
     else
         parts_.session.selectTrack(std::nullopt);
     parts_.session.goToFrame(found.frameAt(*place));
+    zoomTimelineTo(found.framesAt(*place));
     if (event != nullptr) bringIntoView(QPointF(event->place.x, event->place.y));
 }
 
@@ -304,6 +308,12 @@ QString EventsDock::tagsOn(int id) const {
     const auto place = placeOf(id);
     const Verdict* verdict = place ? review_->verdictAt(*place) : nullptr;
     return verdict == nullptr ? QString() : QString::fromStdString(tagText(verdict->tags));
+}
+
+void EventsDock::zoomTimelineTo(FrameSpan frames) {
+    const auto& times = parts_.session.timesUs();
+    if (times.empty() || times.back() - times.front() <= kLongVideo_us) return;
+    parts_.timeline.showAround(frames.first, frames.last, kAroundEvent_us);
 }
 
 void EventsDock::bringIntoView(QPointF place) {

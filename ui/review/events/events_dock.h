@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/review/seen_frames.h"
 #include "widgets/delayed_call.h"
 
 namespace eyrie {
@@ -95,6 +96,8 @@ class EventsDock : public QObject {
     std::vector<std::size_t> selectedPlaces() const;
     std::optional<std::size_t> placeOf(int id) const;
     void bringIntoView(QPointF place);
+    /// Of a long video the timeline shows what happened and a little around it.
+    void zoomTimelineTo(FrameSpan frames);
     QString markText(int id) const;
 
     EventsParts parts_;

@@ -15,21 +15,23 @@ namespace {
 constexpr int kWriteSeen_ms = 5000;
 }
 
-SeenWatch::SeenWatch(ProjectSession& session, VideoView& canvas, QWidget& window,
-                     std::function<void(std::optional<double>)> show_share, QObject* parent)
+SeenWatch::SeenWatch(ProjectSession& session, VideoView& canvas, QWidget& window, ShowWatched show_watched,
+                     QObject* parent)
     : QObject(parent),
       session_(session),
       canvas_(canvas),
       window_(window),
-      show_share_(std::move(show_share)),
+      show_watched_(std::move(show_watched)),
       due_(kWriteSeen_ms, [this] { flush(); }) {
     clock_.start();
     window_.installEventFilter(this);
     whenAny(&canvas_, this, &SeenWatch::showFrame, &VideoView::frameGiven);
-    followSession(session_, this, {{{SessionChange::video, SessionChange::project, SessionChange::run_data}, [this] {
-                                        recorder_.interrupt(wallSeconds());
-                                        flush();
-                                    }}});
+    followSession(session_, this,
+                  {{SessionChange::video, [this] { told_ = false; }},
+                   {{SessionChange::video, SessionChange::project, SessionChange::run_data}, [this] {
+                        recorder_.interrupt(wallSeconds());
+                        flush();
+                    }}});
     due_.start();
 }
 
@@ -59,13 +61,12 @@ void SeenWatch::flush() {
     const FrameSpan searched_before = searched_;
     searched_ = run != nullptr ? FrameSpan{run->first_frame, run->last_frame} : FrameSpan{0, -1};
     if (sequence == 0) seen.clear();
-    if (sequence == 0 && sequence_ == 0) {
-        show_share_(std::nullopt);
-        return;
-    }
+    if (sequence_ == 0) show_watched_(std::nullopt);
+    if (sequence == 0 && sequence_ == 0) return;
     const bool nothing_new =
-        seen.empty() && sequence == sequence_ && project == project_ && searched_ == searched_before;
+        told_ && seen.empty() && sequence == sequence_ && project == project_ && searched_ == searched_before;
     if (nothing_new) return;
+    told_ = true;
     query_.post(
         [this, seen = std::move(seen), project, sequence, now = project_, shown = sequence_, searched = searched_,
          person = personName().toStdString()](const BackgroundTask& task) {
@@ -75,13 +76,14 @@ void SeenWatch::flush() {
             }
             if (shown == 0 || now.empty()) return;
             ProjectFile file = ProjectFile::open(now, ProjectFile::Mode::read_only);
-            const double share = seenShare(seenByAnybody(file, shown), searched);
-            task.tell([this, shown, share] {
-                if (shown == sequence_) show_share_(share);
+            WatchedFrames watched{seenByAnybody(file, shown), 0};
+            watched.share = seenShare(watched.spans, searched);
+            task.tell([this, shown, watched = std::move(watched)] {
+                if (shown == sequence_) show_watched_(watched);
             });
         },
         // A project that cannot be written can be watched all the same; nobody is troubled.
-        [this](const QString&) { show_share_(std::nullopt); });
+        [this](const QString&) { show_watched_(std::nullopt); });
 }
 
 }  // namespace eyrie::ui

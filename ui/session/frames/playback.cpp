@@ -71,7 +71,7 @@ void Playback::tick() {
         emit playingChanged(false);
         return;
     }
-    timer_.start(static_cast<int>((clock_.untilNext(time) + 999) / 1000));
+    timer_.start(std::max(kLeastWait_ms, static_cast<int>((clock_.untilNext(time) + 999) / 1000)));
     emit frameDue(*due);
 }
 

@@ -18,7 +18,9 @@ class Playback : public QObject {
 
  public:
     static constexpr double kSlowest = 0.25;
-    static constexpr double kFastest = 8;
+    static constexpr double kFastest = 32;
+    /// From one frame that is due to the next, at least: screens show no more.
+    static constexpr int kLeastWait_ms = 8;
 
     explicit Playback(QObject* parent = nullptr);
 

@@ -7,7 +7,7 @@
 namespace eyrie::ui {
 
 /// Sorts a table by `sort_role`, numbers as numbers, and shows only rows that hold every word of a search text in any
-/// of their columns.
+/// of their columns. A whole number is searched for as one where a column sorts by numbers: 5 does not find 15 there.
 class TableSortProxy : public QSortFilterProxyModel {
     Q_OBJECT
  public:

@@ -19,6 +19,7 @@ OverlayButton::OverlayButton(OverlaySettings& overlays, const WindowActions& act
     setText(tr("Overlays"));
     setIcon(QIcon::fromTheme(QStringLiteral("layer-visible-on")));
     setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+    setCheckable(true);
     setPopupMode(QToolButton::InstantPopup);
     setFocusPolicy(Qt::NoFocus);
     buildMenu();
@@ -53,6 +54,8 @@ void OverlayButton::buildMenu() {
 void OverlayButton::refresh() {
     const QSignalBlocker blocker(length_);
     length_->setValue(overlays_.style().vector_length_factor);
+    // Whoever sees no tracks should know that they are hidden.
+    setChecked(overlays_.hidden());
     for (const OverlayRow& row : overlayTable())
         actions_.overlay.at(row.kind)->setIcon(swatch(row.colour(overlays_.style()), 16));
 }

@@ -46,7 +46,7 @@ TransportBar::TransportBar(ProjectSession& session, const WindowActions& actions
     speed_->setToolTip(tr("Speed of playback"));
     speed_->setAccessibleName(speed_->toolTip());
     speed_->setFocusPolicy(Qt::NoFocus);
-    for (const double speed : {0.25, 0.5, 1.0, 2.0, 4.0, 8.0})
+    for (const double speed : {Playback::kSlowest, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, Playback::kFastest})
         speed_->addItem(tr("%1×").arg(locale().toString(speed)), speed);
     layout->addWidget(speed_);
     button(actions.loop);

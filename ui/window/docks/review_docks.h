@@ -57,6 +57,7 @@ class ReviewDocks : public QObject {
     TracksPanel& tracks() { return *tracks_; }
     /// What time it was when the frames were taken; to be given again when that is known otherwise.
     void setClock(const ClockOfFrames& clock) { tracks_model_->setClock(clock); }
+    InspectorPanel& inspector() { return *inspector_; }
     /// What is done when somebody asks for what the tracks did: TracksPanel::setDoings().
     void setDoingsWanted(std::function<void()> want) { want_doings_ = std::move(want); }
     /// What is done when the list asks how like tracks are to one: TracksPanel::setLikeness().
