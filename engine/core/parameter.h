@@ -20,10 +20,11 @@ struct ParameterText {
     std::string source;  ///< "Teutsch §5.4.1, eq. 5.14", or "" for our own choices
 };
 
-/// What of the chain has to be computed anew when a parameter changes.
+/// What of the chain has to be computed anew when a parameter changes, and whether more is needed for it.
 struct ParameterEffect {
     ChainStage stage;            ///< the first; `none` for what is no part of the chain, as training
     bool decision_only = false;  ///< of detection nothing that Detector::prepare() does
+    bool chooses_model = false;  ///< a value may need a model file, which may be missing or of another kind
 };
 
 /// Visits each parameter of an options struct by reference. Parameters are declared through a ParameterDeclarer.
@@ -55,6 +56,13 @@ class ParameterDeclarer {
     ParameterDeclarer decisionOnly() const {
         ParameterDeclarer declarer = *this;
         declarer.effect_.decision_only = true;
+        return declarer;
+    }
+
+    /// For parameters of which a value may need a model file: sweeps try all their values before they begin.
+    ParameterDeclarer choosesModel() const {
+        ParameterDeclarer declarer = *this;
+        declarer.effect_.chooses_model = true;
         return declarer;
     }
 

@@ -27,14 +27,15 @@ void DetectionOptions::describe(ParameterVisitor& visitor) {
     const ParameterDeclarer deciding = declare.decisionOnly();
     std::vector<std::string> methods;
     for (const DetectionMethod known : allDetectionMethods()) methods.emplace_back(nameOf(known));
-    declare.choice("detection.method", method, methods,
-                   {"",
-                    "What finds objects in a search area: the motion cluster itself (baseline), segmentation by "
-                    "gradients, relative connectivity, tophat transforms, stable regions, or edges and corners, a "
-                    "trained sliding window, or that one where it is sure and gradients elsewhere. What gradient.* "
-                    "says about components and falling back holds for all "
-                    "segmentations.",
-                    "Teutsch §5.4, §7.4.1"});
+    declare.choosesModel().choice(
+        "detection.method", method, methods,
+        {"",
+         "What finds objects in a search area: the motion cluster itself (baseline), segmentation by "
+         "gradients, relative connectivity, tophat transforms, stable regions, or edges and corners, a "
+         "trained sliding window, or that one where it is sure and gradients elsewhere. What gradient.* "
+         "says about components and falling back holds for all "
+         "segmentations.",
+         "Teutsch §5.4, §7.4.1"});
     declare.real("detection.extend_along", extend_along, 1, 10,
                  {"", "Search areas are motion clusters extended by this factor along the motion, to catch split ones.",
                   "Teutsch §5.4"});

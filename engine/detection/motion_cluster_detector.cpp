@@ -24,7 +24,7 @@ std::vector<Detection> clusterDetection(const MotionRoi& roi, double margin_px) 
 }
 
 std::vector<Detection> MotionClusterDetector::detect(const MotionRoi& roi, DetectionTrace* trace) const {
-    if (trace != nullptr) trace->add("raw", roi.image);
+    if (trace != nullptr) trace->add(TraceLayer::raw, roi.image);
     return clusterDetection(roi, margin_px_);
 }
 

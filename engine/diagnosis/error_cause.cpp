@@ -227,7 +227,7 @@ CauseHere causeOfFalseAlarm(const ErrorPlace& place, const ErrorEvidence& eviden
     if (const auto related = relationToTruth(alarm, evidence)) return *related;
     if (evidence.recently_unregistered || (facts != nullptr && facts->registration == RegistrationState::failed))
         return {ErrorCause::unregistered, facts != nullptr ? describe(facts->failure) : std::string()};
-    if (alarm.origin == eyrie::nameOf(StateOrigin::predicted)) return {ErrorCause::coasting, ""};
+    if (alarm.origin == StateOrigin::predicted) return {ErrorCause::coasting, ""};
     const bool has_own = length(alarm.velocity) >= kSlowest || facts == nullptr;
     const cv::Point2d velocity = has_own ? alarm.velocity : facts->velocity;
     if (const int companion = companionOf(alarm, velocity, evidence); companion >= 0)

@@ -81,7 +81,7 @@ class VmtiFrames {
             made.ellipsoid_height_m = height->metres;
         const std::int64_t began = world_.utc_us(life.first).value_or(0);
         made.track = trackUuid(name_, began, *box.id);
-        made.detection = box.origin == "standing" ? vmti::Detection::stopped : vmti::Detection::active;
+        made.detection = box.origin == StateOrigin::standing ? vmti::Detection::stopped : vmti::Detection::active;
         made.first_utc_us = began;
         made.last_utc_us = world_.utc_us(std::min(life.last, frame));
         const GroundState ground = groundStateOf(&world_, box);

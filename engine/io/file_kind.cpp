@@ -125,4 +125,10 @@ bool hasVideoName(const std::filesystem::path& path) {
     return std::find(kVideoExtensions.begin(), kVideoExtensions.end(), extension) != kVideoExtensions.end();
 }
 
+std::string videoFilePatterns() {
+    std::string text;
+    for (const char* extension : kVideoExtensions) text += std::string(text.empty() ? "*" : " *") + extension;
+    return text;
+}
+
 }  // namespace eyrie

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace eyrie {
 
@@ -28,5 +29,7 @@ FileKind kindOfFile(const std::filesystem::path& path);
 
 /// Whether a file is called what videos are called, whatever its bytes say.
 bool hasVideoName(const std::filesystem::path& path);
+/// These names as dialogs ask for them: "*.mp4 *.m4v …".
+std::string videoFilePatterns();
 
 }  // namespace eyrie

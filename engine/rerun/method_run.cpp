@@ -69,7 +69,7 @@ class Method {
             record.box = state.box;
             record.score = state.score;
             record.velocity = state.velocity;
-            record.origin = nameOf(state.origin);
+            record.origin = state.origin;
             result_.tracks[frame].push_back(record);
         }
         nameClasses(result_.tracks, scale_, variant_.options.classes);

@@ -106,7 +106,7 @@ BoxesByFrame trackBoxesOf(const RangeResult& result) {
             record.box = state.box;
             record.score = state.score;
             record.velocity = state.velocity;
-            record.origin = nameOf(state.origin);
+            record.origin = state.origin;
             boxes[frame].push_back(std::move(record));
         }
     }

@@ -43,7 +43,7 @@ BoxRecord recordOf(FrameIndex frame, const TrackState& state) {
     record.box = state.box;
     record.score = state.score;
     record.velocity = state.velocity;
-    record.origin = nameOf(state.origin);
+    record.origin = state.origin;
     return record;
 }
 

@@ -90,11 +90,9 @@ TEST_P(DetectorContract, TracesItsStepsWithoutChangingTheResult) {
     ASSERT_EQ(with.size(), without.size());
     for (std::size_t i = 0; i < with.size(); ++i) EXPECT_EQ(with[i].box.length, without[i].box.length);
     ASSERT_FALSE(trace.layers.empty());
-    EXPECT_EQ(trace.layers.front().name, "raw");
-    for (const auto& layer : trace.layers) {
-        EXPECT_FALSE(layer.name.empty());
-        EXPECT_EQ(layer.image.size(), roi.image.size()) << layer.name;
-    }
+    EXPECT_EQ(trace.layers.front().kind, TraceLayer::raw);
+    for (const auto& layer : trace.layers)
+        EXPECT_EQ(layer.image.size(), roi.image.size()) << static_cast<int>(layer.kind);
 }
 
 TEST_P(DetectorContract, DecidesWhatItDetectsPreparedOrNot) {

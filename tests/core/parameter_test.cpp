@@ -24,7 +24,7 @@ struct ExampleOptions {
         declare.real("example.quantile", quantile, 0, 1, {"", "Share of pixels kept.", ""});
         declare.integer("example.height", height, 1, 500, {"layers", "Stack height.", ""});
         declare.flag("example.enabled", enabled, {"", "On or off.", ""});
-        declare.choice("example.method", method, {"clusters", "gradient"}, {"", "Which.", ""});
+        declare.choosesModel().choice("example.method", method, {"clusters", "gradient"}, {"", "Which.", ""});
         declare.decisionOnly().words("example.model", model, {"", "A file.", ""});
     }
 };
@@ -67,6 +67,7 @@ TEST(Parameter, carriesTheStageItWasDeclaredFor) {
     for (const Parameter& parameter : listParameters(describeOf(options))) {
         EXPECT_EQ(parameter.effect.stage, ChainStage::detection) << parameter.name;
         EXPECT_EQ(parameter.effect.decision_only, parameter.name == "example.model") << parameter.name;
+        EXPECT_EQ(parameter.effect.chooses_model, parameter.name == "example.method") << parameter.name;
     }
 }
 

@@ -90,14 +90,14 @@ TEST_F(CorrectedRun, IsReadAlikeInEveryWay) {
     EXPECT_EQ(trails.size(), 30U);
     EXPECT_EQ(trails.front().frame, 21);
 
-    std::map<std::string, int> origins;
+    std::map<std::optional<StateOrigin>, int> origins;
     visitTrackBoxes(store, run_.id, corrected, [&](FrameIndex frame, const BoxRecord& box) {
         EXPECT_EQ(box.frame, frame);
         ++origins[box.origin];
     });
-    EXPECT_EQ(origins["by hand"], 54);
-    EXPECT_EQ(origins["predicted"], 4);
-    EXPECT_EQ(origins["detected"], 21 + 26 + 60);
+    EXPECT_EQ(origins[StateOrigin::by_hand], 54);
+    EXPECT_EQ(origins[StateOrigin::predicted], 4);
+    EXPECT_EQ(origins[StateOrigin::detected], 21 + 26 + 60);
 }
 
 TEST_F(CorrectedRun, TheRunItselfIsNeverTouched) {

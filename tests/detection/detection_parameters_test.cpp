@@ -13,7 +13,7 @@ namespace {
 /// A parameter, what it changes first, and two values of which the second leaves more of it.
 struct DetectionEffect {
     DetectionMethod method;
-    const char* layer;
+    TraceLayer layer;
     const char* parameter;
     const char* less;
     const char* more;
@@ -30,9 +30,9 @@ double sumOf(const DetectionEffect& effect, const char* value) {
     DetectionTrace trace;
     makeDetector(options, test::kContractScale)->detect(test::roiOf(test::drivenScene(0.4)), &trace);
     for (const auto& layer : trace.layers) {
-        if (layer.name == effect.layer) return cv::sum(layer.image)[0];
+        if (layer.kind == effect.layer) return cv::sum(layer.image)[0];
     }
-    ADD_FAILURE() << "no layer " << effect.layer;
+    ADD_FAILURE() << "no such layer for " << effect.parameter;
     return 0;
 }
 
@@ -48,33 +48,35 @@ TEST_P(EveryDetectionParameter, DoesWhatItsHelpSays) {
 INSTANTIATE_TEST_SUITE_P(
     Each, EveryDetectionParameter,
     testing::Values(
-        DetectionEffect{DetectionMethod::gradient, "gradient", "gradient.lbp_radius_min", "2", "1"},
-        DetectionEffect{DetectionMethod::gradient, "gradient", "gradient.lbp_radius_max", "1", "3"},
-        DetectionEffect{DetectionMethod::gradient, "gradient", "gradient.lbp_threshold", "30", "3"},
-        DetectionEffect{DetectionMethod::gradient, "gradient", "gradient.canny_variance", "9", "0.3"},
-        DetectionEffect{DetectionMethod::gradient, "quantile area", "gradient.quantile_margin", "0.2", "0.6"},
-        DetectionEffect{DetectionMethod::gradient, "binary", "gradient.quantile", "0.1", "0.3"},
-        DetectionEffect{DetectionMethod::relative_connectivity, "bright areas", "relative_connectivity.high_factor",
-                        "30", "1"},
-        DetectionEffect{DetectionMethod::relative_connectivity, "bright areas", "relative_connectivity.low", "40", "4"},
-        DetectionEffect{DetectionMethod::relative_connectivity, "bright areas", "relative_connectivity.deviations",
-                        "1.5", "0"},
-        DetectionEffect{DetectionMethod::relative_connectivity, "bright lines", "relative_connectivity.min_points",
-                        "12", "3"},
-        DetectionEffect{DetectionMethod::tophat_otsu, "white tophat", "tophat_otsu.element", "0.5", "3"},
-        DetectionEffect{DetectionMethod::tophat_otsu, "white tophat", "tophat_otsu.smoothing", "2.5", "0.3"},
-        DetectionEffect{DetectionMethod::tophat_otsu, "binary", "tophat_otsu.min_contrast", "200", "8"},
-        DetectionEffect{DetectionMethod::mser, "regions", "mser.delta", "100", "3"},
-        DetectionEffect{DetectionMethod::mser, "regions", "mser.max_variation", "0.01", "1"},
-        DetectionEffect{DetectionMethod::mser, "regions", "mser.min_area", "9", "2"},
-        DetectionEffect{DetectionMethod::mser, "regions", "mser.max_area", "1", "12"},
-        DetectionEffect{DetectionMethod::mser, "binary", "mser.max_eccentricity", "0.5", "0.99"},
-        DetectionEffect{DetectionMethod::canny_harris, "edges", "canny_harris.high", "200", "20"},
-        DetectionEffect{DetectionMethod::canny_harris, "edges", "canny_harris.low_share", "1", "0.05"},
-        DetectionEffect{DetectionMethod::canny_harris, "corners", "canny_harris.corner_share", "0.9", "0.001"},
-        DetectionEffect{DetectionMethod::canny_harris, "clustered", "canny_harris.link", "0.1", "1"},
-        DetectionEffect{DetectionMethod::canny_harris, "clustered", "canny_harris.min_corners", "1000", "1"},
-        DetectionEffect{DetectionMethod::canny_harris, "closed", "canny_harris.closing", "0", "1"}),
+        DetectionEffect{DetectionMethod::gradient, TraceLayer::gradient, "gradient.lbp_radius_min", "2", "1"},
+        DetectionEffect{DetectionMethod::gradient, TraceLayer::gradient, "gradient.lbp_radius_max", "1", "3"},
+        DetectionEffect{DetectionMethod::gradient, TraceLayer::gradient, "gradient.lbp_threshold", "30", "3"},
+        DetectionEffect{DetectionMethod::gradient, TraceLayer::gradient, "gradient.canny_variance", "9", "0.3"},
+        DetectionEffect{DetectionMethod::gradient, TraceLayer::quantile_area, "gradient.quantile_margin", "0.2", "0.6"},
+        DetectionEffect{DetectionMethod::gradient, TraceLayer::binary, "gradient.quantile", "0.1", "0.3"},
+        DetectionEffect{DetectionMethod::relative_connectivity, TraceLayer::bright_areas,
+                        "relative_connectivity.high_factor", "30", "1"},
+        DetectionEffect{DetectionMethod::relative_connectivity, TraceLayer::bright_areas, "relative_connectivity.low",
+                        "40", "4"},
+        DetectionEffect{DetectionMethod::relative_connectivity, TraceLayer::bright_areas,
+                        "relative_connectivity.deviations", "1.5", "0"},
+        DetectionEffect{DetectionMethod::relative_connectivity, TraceLayer::bright_lines,
+                        "relative_connectivity.min_points", "12", "3"},
+        DetectionEffect{DetectionMethod::tophat_otsu, TraceLayer::white_tophat, "tophat_otsu.element", "0.5", "3"},
+        DetectionEffect{DetectionMethod::tophat_otsu, TraceLayer::white_tophat, "tophat_otsu.smoothing", "2.5", "0.3"},
+        DetectionEffect{DetectionMethod::tophat_otsu, TraceLayer::binary, "tophat_otsu.min_contrast", "200", "8"},
+        DetectionEffect{DetectionMethod::mser, TraceLayer::regions, "mser.delta", "100", "3"},
+        DetectionEffect{DetectionMethod::mser, TraceLayer::regions, "mser.max_variation", "0.01", "1"},
+        DetectionEffect{DetectionMethod::mser, TraceLayer::regions, "mser.min_area", "9", "2"},
+        DetectionEffect{DetectionMethod::mser, TraceLayer::regions, "mser.max_area", "1", "12"},
+        DetectionEffect{DetectionMethod::mser, TraceLayer::binary, "mser.max_eccentricity", "0.5", "0.99"},
+        DetectionEffect{DetectionMethod::canny_harris, TraceLayer::edges, "canny_harris.high", "200", "20"},
+        DetectionEffect{DetectionMethod::canny_harris, TraceLayer::edges, "canny_harris.low_share", "1", "0.05"},
+        DetectionEffect{DetectionMethod::canny_harris, TraceLayer::corners, "canny_harris.corner_share", "0.9",
+                        "0.001"},
+        DetectionEffect{DetectionMethod::canny_harris, TraceLayer::clustered, "canny_harris.link", "0.1", "1"},
+        DetectionEffect{DetectionMethod::canny_harris, TraceLayer::clustered, "canny_harris.min_corners", "1000", "1"},
+        DetectionEffect{DetectionMethod::canny_harris, TraceLayer::closed, "canny_harris.closing", "0", "1"}),
     [](const auto& effect) {
         std::string name = effect.param.parameter;
         name.replace(name.find('.'), 1, "_");

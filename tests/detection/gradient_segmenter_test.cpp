@@ -45,10 +45,11 @@ TEST(GradientOptions, TheQuantileFollowsTheMethodUntilOneIsChosen) {
 TEST(GradientSegmenter, TracesAllItsSteps) {
     DetectionTrace trace;
     segmenter({}).detect(roiOf(drivenScene(0.4)), &trace);
-    std::vector<std::string> names;
-    for (const auto& layer : trace.layers) names.push_back(layer.name);
-    EXPECT_EQ(names, (std::vector<std::string>{"raw", "gradient", "lbp mask", "quantile area", "binary", "closed",
-                                               "components"}));
+    std::vector<TraceLayer> kinds;
+    for (const auto& layer : trace.layers) kinds.push_back(layer.kind);
+    EXPECT_EQ(kinds, (std::vector<TraceLayer>{TraceLayer::raw, TraceLayer::gradient, TraceLayer::lbp_mask,
+                                              TraceLayer::quantile_area, TraceLayer::binary, TraceLayer::closed,
+                                              TraceLayer::components}));
     EXPECT_EQ(trace.layers.back().boxes.size(), 1U);
 }
 
@@ -62,7 +63,7 @@ TEST(GradientSegmenter, TheQuantileIsTakenAroundVectorsOnePixelAtLeast) {
         DetectionTrace trace;
         segmenter(options).detect(roi, &trace);
         for (const auto& layer : trace.layers) {
-            if (layer.name == "quantile area") return cv::countNonZero(layer.image);
+            if (layer.kind == TraceLayer::quantile_area) return cv::countNonZero(layer.image);
         }
         return -1;
     };

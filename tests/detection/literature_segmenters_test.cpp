@@ -18,14 +18,14 @@ using test::drivenScene;
 using test::kContractScale;
 using test::roiOf;
 
-std::vector<std::string> layersOf(DetectionMethod method) {
+std::vector<TraceLayer> layersOf(DetectionMethod method) {
     DetectionOptions options;
     options.method = method;
     DetectionTrace trace;
     makeDetector(options, kContractScale)->detect(roiOf(drivenScene(0.4)), &trace);
-    std::vector<std::string> names;
-    for (const auto& layer : trace.layers) names.push_back(layer.name);
-    return names;
+    std::vector<TraceLayer> kinds;
+    for (const auto& layer : trace.layers) kinds.push_back(layer.kind);
+    return kinds;
 }
 
 /// An upright area of plain ground.
@@ -37,14 +37,14 @@ MotionRoi plainRoi(cv::Size size) {
     return roi;
 }
 
-/// A layer that a detector shows of this area; empty: there is none of that name.
-cv::Mat layerOf(const DetectionOptions& options, const MotionRoi& roi, const std::string& name) {
+/// A layer that a detector shows of this area; empty: there is none of that kind.
+cv::Mat layerOf(const DetectionOptions& options, const MotionRoi& roi, TraceLayer kind) {
     DetectionOptions alone = options;
     alone.gradient.fall_back = false;
     DetectionTrace trace;
     makeDetector(alone, kContractScale)->detect(roi, &trace);
     for (const auto& layer : trace.layers) {
-        if (layer.name == name) return layer.image;
+        if (layer.kind == kind) return layer.image;
     }
     return {};
 }
@@ -62,15 +62,19 @@ int segmentsOf(const cv::Mat& labels) {
 }  // namespace
 
 TEST(LiteratureSegmenters, NameTheirSteps) {
-    EXPECT_THAT(
-        layersOf(DetectionMethod::relative_connectivity),
-        testing::ElementsAre("raw", "bright lines", "bright areas", "dark lines", "dark areas", "fused", "components"));
+    EXPECT_THAT(layersOf(DetectionMethod::relative_connectivity),
+                testing::ElementsAre(TraceLayer::raw, TraceLayer::bright_lines, TraceLayer::bright_areas,
+                                     TraceLayer::dark_lines, TraceLayer::dark_areas, TraceLayer::fused,
+                                     TraceLayer::components));
     EXPECT_THAT(
         layersOf(DetectionMethod::tophat_otsu),
-        testing::ElementsAre("raw", "smoothed", "white tophat", "black tophat", "binary", "closed", "components"));
-    EXPECT_THAT(layersOf(DetectionMethod::mser), testing::ElementsAre("raw", "regions", "binary", "components"));
+        testing::ElementsAre(TraceLayer::raw, TraceLayer::smoothed, TraceLayer::white_tophat, TraceLayer::black_tophat,
+                             TraceLayer::binary, TraceLayer::closed, TraceLayer::components));
+    EXPECT_THAT(layersOf(DetectionMethod::mser),
+                testing::ElementsAre(TraceLayer::raw, TraceLayer::regions, TraceLayer::binary, TraceLayer::components));
     EXPECT_THAT(layersOf(DetectionMethod::canny_harris),
-                testing::ElementsAre("raw", "edges", "corners", "clustered", "closed", "components"));
+                testing::ElementsAre(TraceLayer::raw, TraceLayer::edges, TraceLayer::corners, TraceLayer::clustered,
+                                     TraceLayer::closed, TraceLayer::components));
 }
 
 TEST(LiteratureSegmenters, EveryMethodHasAName) {
@@ -119,13 +123,13 @@ TEST(TophatOtsu, ThesisJoinsNothing) {
     roi.image(cv::Rect(60, 10, 8, 40)).setTo(170);
     DetectionOptions options;
     options.method = DetectionMethod::tophat_otsu;
-    EXPECT_EQ(areasIn(layerOf(options, roi, "closed")), 2);
+    EXPECT_EQ(areasIn(layerOf(options, roi, TraceLayer::closed)), 2);
     options.tophat_otsu.joining_m = 5;
-    EXPECT_EQ(areasIn(layerOf(options, roi, "closed")), 1);
+    EXPECT_EQ(areasIn(layerOf(options, roi, TraceLayer::closed)), 1);
     options.tophat_otsu = TophatOtsuOptions::thesis();
-    const cv::Mat binary = layerOf(options, roi, "binary");
+    const cv::Mat binary = layerOf(options, roi, TraceLayer::binary);
     EXPECT_EQ(areasIn(binary), 2);
-    EXPECT_EQ(cv::norm(binary, layerOf(options, roi, "closed"), cv::NORM_INF), 0);
+    EXPECT_EQ(cv::norm(binary, layerOf(options, roi, TraceLayer::closed), cv::NORM_INF), 0);
 }
 
 TEST(TophatOtsu, ThesisTakesOtsusThresholdAsItIs) {
@@ -133,9 +137,9 @@ TEST(TophatOtsu, ThesisTakesOtsusThresholdAsItIs) {
     roi.image(cv::Rect(26, 10, 8, 40)).setTo(96);  // 6 grey values above the ground
     DetectionOptions options;
     options.method = DetectionMethod::tophat_otsu;
-    EXPECT_EQ(areasIn(layerOf(options, roi, "closed")), 0) << "below the least contrast of 8";
+    EXPECT_EQ(areasIn(layerOf(options, roi, TraceLayer::closed)), 0) << "below the least contrast of 8";
     options.tophat_otsu = TophatOtsuOptions::thesis();
-    EXPECT_EQ(areasIn(layerOf(options, roi, "closed")), 1);
+    EXPECT_EQ(areasIn(layerOf(options, roi, TraceLayer::closed)), 1);
 }
 
 TEST(Mser, ThesisKeepsRegionsFromEdgeToEdge) {
@@ -145,11 +149,11 @@ TEST(Mser, ThesisKeepsRegionsFromEdgeToEdge) {
     roi.image.rowRange(0, 20).setTo(94);
     DetectionOptions options;
     options.method = DetectionMethod::mser;
-    EXPECT_EQ(cv::countNonZero(layerOf(options, roi, "binary")), 0);
+    EXPECT_EQ(cv::countNonZero(layerOf(options, roi, TraceLayer::binary)), 0);
     setParameter(describeOf(options), "mser.keep_spanning", "true");
-    EXPECT_GT(cv::countNonZero(layerOf(options, roi, "binary")), 700);
+    EXPECT_GT(cv::countNonZero(layerOf(options, roi, TraceLayer::binary)), 700);
     options.mser = MserOptions::thesis();
-    EXPECT_GT(cv::countNonZero(layerOf(options, roi, "binary")), 700);
+    EXPECT_GT(cv::countNonZero(layerOf(options, roi, TraceLayer::binary)), 700);
 }
 
 TEST(Mser, OnlyWhatReachesFromEdgeToEdgeIsGround) {
@@ -160,7 +164,7 @@ TEST(Mser, OnlyWhatReachesFromEdgeToEdgeIsGround) {
     const auto kept = [&](const cv::Rect& block) {
         MotionRoi roi = plainRoi({60, 32});
         roi.image(block).setTo(180);
-        return cv::countNonZero(layerOf(options, roi, "binary"));
+        return cv::countNonZero(layerOf(options, roi, TraceLayer::binary));
     };
     EXPECT_EQ(kept({18, 0, 24, 32}), 0);
     EXPECT_GT(kept({18, 2, 24, 30}), 600);
@@ -169,7 +173,7 @@ TEST(Mser, OnlyWhatReachesFromEdgeToEdgeIsGround) {
     const auto kept_across = [&](const cv::Rect& block) {
         MotionRoi roi = plainRoi({32, 60});
         roi.image(block).setTo(180);
-        return cv::countNonZero(layerOf(options, roi, "binary"));
+        return cv::countNonZero(layerOf(options, roi, TraceLayer::binary));
     };
     EXPECT_EQ(kept_across({0, 18, 32, 24}), 0);
     EXPECT_EQ(kept_across({1, 18, 30, 24}), 0) << "a pixel of the border is not counted";
@@ -186,7 +190,7 @@ TEST(Mser, AreasAreInSquareMetres) {
     const auto found = [&](double smallest, double largest) {
         options.mser.min_area_m2 = smallest;
         options.mser.max_area_m2 = largest;
-        return cv::countNonZero(layerOf(options, roi, "binary")) > 0;
+        return cv::countNonZero(layerOf(options, roi, TraceLayer::binary)) > 0;
     };
     EXPECT_TRUE(found(7, 8.5));
     EXPECT_FALSE(found(8.5, 20));
@@ -205,7 +209,7 @@ TEST(CannyHarris, ASlantingStepIsAsHighAsAnUprightOne) {
         for (int y = 0; y < 60; ++y) {
             for (int x = 0; x < 60; ++x) roi.image.at<uchar>(y, x) = static_cast<uchar>(x + y < 60 ? 90 : 90 + height);
         }
-        return cv::countNonZero(layerOf(options, roi, "edges"));
+        return cv::countNonZero(layerOf(options, roi, TraceLayer::edges));
     };
     EXPECT_EQ(edges(17), 0);
     EXPECT_GT(edges(21), 20);
@@ -218,7 +222,7 @@ TEST(RelativeConnectivity, CarsAreScaledToTheirLength) {
     options.method = DetectionMethod::relative_connectivity;
     const auto lines = [&](double car_length_px) {
         options.relative_connectivity.car_length_px = car_length_px;
-        return layerOf(options, roi, "bright lines");
+        return layerOf(options, roi, TraceLayer::bright_lines);
     };
     const cv::Mat as_it_is = lines(0);
     EXPECT_EQ(cv::norm(as_it_is, lines(4.6 / 0.11), cv::NORM_INF), 0);

@@ -26,11 +26,11 @@ using test::roiOf;
 
 const SceneScale kTenToAMetre{0.1, 25, true};
 
-std::map<std::string, cv::Mat> layersOf(const DetectionOptions& options, const MotionRoi& roi) {
+std::map<TraceLayer, cv::Mat> layersOf(const DetectionOptions& options, const MotionRoi& roi) {
     DetectionTrace trace;
     makeDetector(options, kTenToAMetre)->detect(roi, &trace);
-    std::map<std::string, cv::Mat> layers;
-    for (const auto& layer : trace.layers) layers[layer.name] = layer.image;
+    std::map<TraceLayer, cv::Mat> layers;
+    for (const auto& layer : trace.layers) layers[layer.kind] = layer.image;
     return layers;
 }
 
@@ -70,7 +70,7 @@ TEST(SegmenterReference, CannyAndHarrisStepByStep) {
             cv::Mat edges, response;
             cv::Canny(roi.image, edges, 60, 120, 3, true);
             edges.setTo(0, roi.inside == 0);
-            expectSame(layers.at("edges"), edges, "edges");
+            expectSame(layers.at(TraceLayer::edges), edges, "edges");
             cv::cornerHarris(roi.image, response, 3, 3, 0.04);
             float strongest = 0;
             for (int y = 0; y < response.rows; ++y) {
@@ -93,7 +93,7 @@ TEST(SegmenterReference, CannyAndHarrisStepByStep) {
                     places.emplace_back(x, y);
                 }
             }
-            expectSame(layers.at("corners"), corners, "corners");
+            expectSame(layers.at(TraceLayer::corners), corners, "corners");
             cv::Mat linked, labels;
             cv::dilate(corners, linked, disc(7));
             cv::connectedComponents(linked, labels, 8, CV_32S);
@@ -107,16 +107,16 @@ TEST(SegmenterReference, CannyAndHarrisStepByStep) {
             const cv::Mat clustered = (edges | corners) & near;
             cv::Mat closed;
             cv::morphologyEx(clustered, closed, cv::MORPH_CLOSE, disc(5));
-            expectSame(layers.at("clustered"), clustered, "clustered", fewest == 1);
-            expectSame(layers.at("closed"), closed, "closed", fewest == 1);
+            expectSame(layers.at(TraceLayer::clustered), clustered, "clustered", fewest == 1);
+            expectSame(layers.at(TraceLayer::closed), closed, "closed", fewest == 1);
         }
     }
     // Lengths are 3 px at least.
     options.canny_harris.link_m = options.canny_harris.closing_m = 0.01;
     DetectionOptions least = options;
     least.canny_harris.link_m = least.canny_harris.closing_m = 0.3;
-    for (const char* name : {"clustered", "closed"})
-        expectSame(layersOf(options, cutArea()).at(name), layersOf(least, cutArea()).at(name), name, false);
+    for (const TraceLayer kind : {TraceLayer::clustered, TraceLayer::closed})
+        expectSame(layersOf(options, cutArea()).at(kind), layersOf(least, cutArea()).at(kind), "3 px", false);
 }
 
 TEST(SegmenterReference, TophatStepByStep) {
@@ -132,12 +132,12 @@ TEST(SegmenterReference, TophatStepByStep) {
         cv::Mat smooth, opened, closed;
         cv::morphologyEx(roi.image, smooth, cv::MORPH_CLOSE, disc(5));
         cv::morphologyEx(smooth, smooth, cv::MORPH_OPEN, disc(5));
-        expectSame(layers.at("smoothed"), smooth, "smoothed");
+        expectSame(layers.at(TraceLayer::smoothed), smooth, "smoothed");
         cv::morphologyEx(smooth, opened, cv::MORPH_OPEN, disc(19));
         cv::morphologyEx(smooth, closed, cv::MORPH_CLOSE, disc(19));
         const cv::Mat white = smooth - opened, black = closed - smooth;
-        expectSame(layers.at("white tophat"), white, "white");
-        expectSame(layers.at("black tophat"), black, "black");
+        expectSame(layers.at(TraceLayer::white_tophat), white, "white");
+        expectSame(layers.at(TraceLayer::black_tophat), black, "black");
         const cv::Mat strongest = cv::max(white, black);
         // Otsu: the level that parts the values of the area into classes that lie farthest apart.
         double counts[256] = {}, all = 0, sum = 0;
@@ -162,10 +162,10 @@ TEST(SegmenterReference, TophatStepByStep) {
             }
         }
         const cv::Mat binary = (strongest > std::max(level, least)) & roi.inside;
-        expectSame(layers.at("binary"), binary, "binary");
+        expectSame(layers.at(TraceLayer::binary), binary, "binary");
         cv::Mat joined;
         cv::morphologyEx(binary, joined, cv::MORPH_CLOSE, disc(7));
-        expectSame(layers.at("closed"), joined, "closed");
+        expectSame(layers.at(TraceLayer::closed), joined, "closed");
     }
     EXPECT_EQ(cv::norm(discElement(6.9), disc(7), cv::NORM_INF), 0);
     EXPECT_EQ(discElement(4.1).size(), cv::Size(5, 5));
@@ -199,8 +199,8 @@ TEST(SegmenterReference, StableRegionsAreThoseOfSizeAndShape) {
         }
     }
     EXPECT_GT(dropped, 0);
-    expectSame(layers.at("regions"), all, "regions");
-    if (cv::countNonZero(kept) > 0) expectSame(layers.at("binary"), kept, "binary");
+    expectSame(layers.at(TraceLayer::regions), all, "regions");
+    if (cv::countNonZero(kept) > 0) expectSame(layers.at(TraceLayer::binary), kept, "binary");
     // However small the limits, six pixels make a region at least.
     options.mser.min_area_m2 = 0;
     cv::MSER::create(3, 6, 900, 0.4)->detectRegions(roi.image, regions, boxes);
@@ -208,7 +208,7 @@ TEST(SegmenterReference, StableRegionsAreThoseOfSizeAndShape) {
     for (const auto& region : regions) {
         for (const cv::Point& p : region) all.at<uchar>(p) = 255;
     }
-    expectSame(layersOf(options, roi).at("regions"), all, "regions from six pixels on");
+    expectSame(layersOf(options, roi).at(TraceLayer::regions), all, "regions from six pixels on");
     // Slanting points have the eccentricity of upright ones.
     std::vector<cv::Point> along, slanting;
     for (int i = 0; i < 60; ++i) {
@@ -265,11 +265,11 @@ TEST(SegmenterReference, RelativeConnectivityStepByStep) {
             if (factor != 1) {
                 cv::resize(shown, shown, roi.image.size(), 0, 0, cv::INTER_LINEAR);
             }
-            expectSame(layers.at(bright ? "bright lines" : "dark lines"), shown, "lines");
+            expectSame(layers.at(bright ? TraceLayer::bright_lines : TraceLayer::dark_lines), shown, "lines");
             fused = cv::max(fused, closed);
         }
         if (factor != 1) cv::resize(fused, fused, roi.image.size(), 0, 0, cv::INTER_AREA);
-        expectSame(layers.at("fused"), fused >= 128, "fused");
+        expectSame(layers.at(TraceLayer::fused), fused >= 128, "fused");
     }
     // Enlarged and reduced eight times at most.
     options.relative_connectivity.car_length_px = 200;

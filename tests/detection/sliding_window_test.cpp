@@ -198,8 +198,9 @@ TEST(SlidingWindow, ShowsItsDecisionsWhereTheWindowsAre) {
     const auto found = makeSlidingWindowDetector(options, kContractScale, 0.5)->detect(roi, &trace);
     ASSERT_FALSE(found.empty());
     const auto shown = std::find_if(trace.layers.begin(), trace.layers.end(),
-                                    [](const auto& layer) { return layer.name == "decision ×1.00"; });
+                                    [](const auto& layer) { return layer.kind == TraceLayer::decision; });
     ASSERT_NE(shown, trace.layers.end());
+    EXPECT_EQ(shown->scale, 1);
     EXPECT_EQ(shown->image.size(), roi.image.size());
     cv::Point peak;
     cv::minMaxLoc(shown->image, nullptr, nullptr, nullptr, &peak);

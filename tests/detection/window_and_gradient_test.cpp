@@ -98,8 +98,8 @@ TEST(WindowAndGradient, TellsSharesOnlyBesideASureWindow) {
 class Shown : public Detector {
  public:
     std::vector<Detection> detect(const MotionRoi& roi, DetectionTrace* trace) const override {
-        trace->add("raw", roi.image);
-        trace->add("seen", roi.image, {{2, 4, 6, 8}});
+        trace->add(TraceLayer::raw, roi.image);
+        trace->add(TraceLayer::binary, roi.image, {{2, 4, 6, 8}});
         trace->checks.push_back({"of a box", "a", 1, 1, false, true, {2, 4, 6, 8}});
         trace->checks.push_back({"of the area", "b", 1, 1, false, true});
         return {};
@@ -119,7 +119,7 @@ TEST(WindowAndGradient, LayersOfTheMiddleAreShownWhereTheyLieInTheSearchArea) {
     detector.detect(roi, &trace);
     ASSERT_EQ(trace.layers.size(), 1U) << "the search area itself is not shown again";
     const auto& layer = trace.layers[0];
-    EXPECT_EQ(layer.name, "seen");
+    EXPECT_EQ(layer.kind, TraceLayer::binary);
     cv::Mat expected = cv::Mat::zeros(roi.image.size(), CV_8UC1);
     const cv::Rect middle(kContext, kContext, 40 - 2 * kContext, 60 - 2 * kContext);
     roi.image(middle).copyTo(expected(middle));

@@ -278,7 +278,7 @@ TEST_F(Causes, falseAlarms) {
     EXPECT_EQ(falseAlarm(car(3, 8, 55)).cause, ErrorCause::duplicate);
     EXPECT_EQ(falseAlarm(car(3, 8, 650)).cause, ErrorCause::outside_image);
     BoxRecord predicted = car(3, 8, 300);
-    predicted.origin = "predicted";
+    predicted.origin = StateOrigin::predicted;
     EXPECT_EQ(falseAlarm(predicted).cause, ErrorCause::coasting);
     addVectors(stored.frames[3], 5, 300);
     const auto steady = falseAlarm(moving(car(3, 8, 300), 2));

@@ -36,7 +36,7 @@ BoxRecord record(FrameIndex frame, std::optional<int> id, double heading) {
     record.object_class = "car";
     record.score = 0.875;
     record.velocity = {1.5, -0.000125};
-    record.origin = "detected";
+    record.origin = StateOrigin::detected;
     return record;
 }
 
@@ -67,9 +67,27 @@ TEST_F(BoxCsv, ResultsSurviveTheRoundTrip) {
             EXPECT_NEAR(back.at(frame)[i].score, 0.875, 1e-6);
             EXPECT_NEAR(back.at(frame)[i].velocity.x, 1.5, 1e-6);
             EXPECT_NEAR(back.at(frame)[i].velocity.y, -0.000125, 1e-6);
-            EXPECT_EQ(back.at(frame)[i].origin, "detected");
+            EXPECT_EQ(back.at(frame)[i].origin, StateOrigin::detected);
         }
     }
+}
+
+TEST_F(BoxCsv, EveryOriginComesBackAndAForeignWordIsNone) {
+    BoxesByFrame boxes;
+    for (int i = 0; i < kStateOrigins; ++i) {
+        boxes[0].push_back(record(0, i, 0));
+        boxes[0].back().origin = static_cast<StateOrigin>(i);
+    }
+    boxes[0].push_back(record(0, kStateOrigins, 0));
+    boxes[0].back().origin = std::nullopt;
+    writeResultCsv(folder_ / "r.csv", boxes);
+    const std::string text = test::bytesOf(folder_ / "r.csv");
+    for (const char* word : {"detected", "reconstructed", "predicted", "standing", "by hand", ""})
+        EXPECT_THAT(text, HasSubstr(std::string(",-0.000125,") + word + "\n"));
+    const BoxesByFrame back = readBoxCsv(folder_ / "r.csv");
+    ASSERT_EQ(back.at(0).size(), boxes[0].size());
+    for (std::size_t i = 0; i < boxes[0].size(); ++i) EXPECT_EQ(back.at(0)[i].origin, boxes[0][i].origin) << i;
+    EXPECT_EQ(read("frame,x,y,length,width,heading,origin\n0,1,1,1,1,0,guessed\n").at(0)[0].origin, std::nullopt);
 }
 
 TEST_F(BoxCsv, GroundTruthSurvivesTheRoundTrip) {

@@ -140,7 +140,7 @@ TEST(Replay, tracesTheStepsOfOneCluster) {
     ASSERT_NE(replayed, nullptr);
     const auto traces = replay.trace(0);
     ASSERT_EQ(traces.size(), 1U);
-    EXPECT_EQ(traces[0].trace.layers.front().name, "raw");
+    EXPECT_EQ(traces[0].trace.layers.front().kind, TraceLayer::raw);
     EXPECT_GT(traces[0].trace.layers.size(), 3U);
     for (const auto& layer : traces[0].trace.layers) EXPECT_EQ(layer.image.size(), traces[0].roi.image.size());
     EXPECT_TRUE(replay.trace(static_cast<int>(replayed->result.clusters.size())).empty());

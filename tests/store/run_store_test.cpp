@@ -249,7 +249,7 @@ TEST_F(RunStoreTest, ResultsAsBoxesHoldConfirmedTracksAndKeptDetections) {
     EXPECT_EQ(track.id, 1);
     EXPECT_EQ(track.score, 0.25);
     EXPECT_EQ(track.velocity, cv::Point2d(3, 4));
-    EXPECT_EQ(track.origin, "detected");
+    EXPECT_EQ(track.origin, StateOrigin::detected);
     EXPECT_EQ(track.box.heading, 0.5);
 
     const BoxesByFrame detections = store.detectionBoxes(writer.runId());

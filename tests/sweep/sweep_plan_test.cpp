@@ -118,19 +118,30 @@ TEST(SweepPlan, RefusesPlansThatCannotBeCarriedOut) {
     EXPECT_THAT(refusal([&] { check(plan); }), HasSubstr("no sequence"));
     plan = test::sweepPlan({"registration.max_corners=100:1:5000", "gradient.quantile=0.1:0.0001:0.9"});
     EXPECT_THAT(refusal([&] { check(plan); }), HasSubstr("at most"));
-    plan = test::sweepPlan({"sliding_window.model=nowhere.eyriemodel"});
-    plan.base = parameterValues([] {
+}
+
+TEST(SweepPlan, EveryModelIsTriedBeforeASweepBegins) {
+    const auto refused = [](const std::string& axis, DetectionMethod method, const std::string& model) {
+        SweepPlan plan = test::sweepPlan({axis});
         ChainOptions options;
-        options.detection.method = DetectionMethod::sliding_window;
-        return options;
-    }());
-    try {
-        check(plan);
-        FAIL() << "a model that does not exist";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.kind(), ErrorKind::input);
-        EXPECT_THAT(error.what(), HasSubstr("sliding_window.model = nowhere.eyriemodel"));
-    }
+        options.detection.method = method;
+        options.detection.sliding_window.model = model;
+        plan.base = parameterValues(options);
+        try {
+            check(plan);
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string("accepted");
+    };
+    const std::string nowhere = "nowhere.eyriemodel";
+    constexpr DetectionMethod kWindow = DetectionMethod::sliding_window;
+    EXPECT_THAT(refused("sliding_window.model=" + nowhere, kWindow, ""),
+                HasSubstr("sliding_window.model = " + nowhere));
+    EXPECT_THAT(refused("sliding_window.descriptor=none", kWindow, ""), HasSubstr("sliding_window.descriptor = none"));
+    EXPECT_THAT(refused("detection.method=gradient,sliding_window", DetectionMethod::gradient, nowhere),
+                HasSubstr("detection.method = sliding_window"));
+    EXPECT_EQ(refused("gradient.quantile=0.1", DetectionMethod::gradient, nowhere), "accepted");
 }
 
 TEST(SweepPlan, SurvivesItsFileAndKnowsItsLike) {

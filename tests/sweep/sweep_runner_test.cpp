@@ -103,23 +103,23 @@ TEST(SweepTable, ResumesAndMergesToTheSameTable) {
     const test::TemporaryFolder folder;
     const SweepPlan plan = test::sweepPlan({"gradient.quantile=0.1,0.2,0.3", "outliers.min_vectors=2,4"});
     const auto inputs = test::sweepInputs();
-    const auto run = [&](const std::filesystem::path& file, const std::vector<int>& positions, bool resume) {
+    const auto run = [&](const std::filesystem::path& file, const std::vector<int>& positions, SweepFound found) {
         ProjectFile project = ProjectFile::openOrCreate(file);
-        const int id = beginSweep(project, plan, "", resume);
+        const int id = beginSweep(project, plan, "", found);
         SweepRunOptions options;
         options.on_point = [&](const SweepPoint& point) { storePoint(project, id, point); };
         runSweep(plan, inputs, positions, {}, options);
         return readSweep(project, id);
     };
-    const SweepTable whole = run(folder / "whole.eyrie", workOrder(plan), false);
-    EXPECT_THROW(run(folder / "whole.eyrie", workOrder(plan), false), Error);
-    run(folder / "parts.eyrie", {0, 1, 2}, false);
-    const SweepTable resumed = run(folder / "parts.eyrie", {3, 4, 5}, true);
+    const SweepTable whole = run(folder / "whole.eyrie", workOrder(plan), SweepFound::refused);
+    EXPECT_THROW(run(folder / "whole.eyrie", workOrder(plan), SweepFound::refused), Error);
+    run(folder / "parts.eyrie", {0, 1, 2}, SweepFound::refused);
+    const SweepTable resumed = run(folder / "parts.eyrie", {3, 4, 5}, SweepFound::resumed);
     EXPECT_EQ(csvText(resumed), csvText(whole));
     EXPECT_EQ(resumed.id, 1);
 
     for (int i = 1; i <= 3; ++i)
-        run(folder / ("shard" + std::to_string(i) + ".eyrie"), shardOf(workOrder(plan), i, 3), true);
+        run(folder / ("shard" + std::to_string(i) + ".eyrie"), shardOf(workOrder(plan), i, 3), SweepFound::resumed);
     const SweepTable two = mergeSweeps({folder / "shard3.eyrie", folder / "shard1.eyrie"}, folder / "m.eyrie");
     EXPECT_THAT(two.missing(), testing::ElementsAre(2, 3));
     EXPECT_EQ(listOf(plan, two.missing()),
@@ -129,7 +129,7 @@ TEST(SweepTable, ResumesAndMergesToTheSameTable) {
 
     SweepPlan other = test::sweepPlan({"gradient.quantile=0.1,0.2,0.3", "outliers.min_vectors=2,5"});
     ProjectFile foreign = ProjectFile::openOrCreate(folder / "foreign.eyrie");
-    beginSweep(foreign, other, "", false);
+    beginSweep(foreign, other, "", SweepFound::refused);
     try {
         mergeSweeps({folder / "shard1.eyrie", folder / "foreign.eyrie"}, folder / "n.eyrie");
         FAIL();
@@ -139,7 +139,7 @@ TEST(SweepTable, ResumesAndMergesToTheSameTable) {
     EXPECT_FALSE(std::filesystem::exists(folder / "n.eyrie"));
 
     ProjectFile forged = ProjectFile::openOrCreate(folder / "forged.eyrie");
-    const int id = beginSweep(forged, plan, "", false);
+    const int id = beginSweep(forged, plan, "", SweepFound::refused);
     SweepStore(forged).addPoint(id, {0, 1, "[]"});
     EXPECT_THROW(mergeSweeps({folder / "shard1.eyrie", folder / "forged.eyrie"}, folder / "n.eyrie"), Error);
     SweepStore(forged).addPoint(id, {1, 1, "no figures"});

@@ -1,5 +1,6 @@
 #include "canvas/overlay_settings.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "canvas/layers/overlay_table.h"
@@ -14,7 +15,8 @@ void OverlayProfile::set(OverlayKind kind, bool shown) {
 }
 
 OverlaySettings::OverlaySettings(QObject* parent) : QObject(parent) {
-    for (const OverlayRow& row : overlayTable()) profile_.set(row.kind, row.in_tune);
+    for (const OverlayRow& row : overlayTable())
+        if (row.in_tune) visible_.insert(row.kind);
 }
 
 template <class Value>
@@ -25,14 +27,16 @@ void OverlaySettings::adopt(Value& field, Value value) {
 }
 
 void OverlaySettings::setVisible(OverlayKind kind, bool visible) {
-    OverlayProfile profile = profile_;
-    profile.set(kind, visible || hidden_);
-    setProfile(profile);
+    OverlayProfile changed_one = profile();
+    changed_one.set(kind, visible || hidden_);
+    setProfile(changed_one);
 }
 
 void OverlaySettings::setProfile(const OverlayProfile& profile) {
-    if (!std::exchange(hidden_, false)) return adopt(profile_, profile);
-    profile_ = profile;
+    const bool was_hidden = std::exchange(hidden_, false);
+    if (!was_hidden && profile == this->profile()) return;
+    visible_ = profile.visible;
+    style_.detail = profile.detail;
     emit changed();
 }
 
@@ -42,28 +46,27 @@ void OverlaySettings::setHidden(bool hidden) {
 
 void OverlaySettings::setPalette(PaletteKind palette) {
     style_.colours = overlayColours(palette);
-    style_.palette = palette;
-    adopt(palette_, palette);
+    adopt(style_.palette, palette);
 }
 
 void OverlaySettings::setVectorLengthFactor(double factor) {
-    adopt(style_.vector_length_factor, factor);
+    adopt(style_.detail.vector_length_factor, std::clamp(factor, kShortestVectors, kLongestVectors));
 }
 
 void OverlaySettings::setLabels(bool shown) {
-    adopt(style_.labels, shown);
+    adopt(style_.detail.labels, shown);
 }
 
 void OverlaySettings::setTrails(bool shown) {
-    adopt(style_.trails, shown);
+    adopt(style_.detail.trails, shown);
 }
 
 void OverlaySettings::setRejectedDetections(bool shown) {
-    adopt(style_.rejected_detections, shown);
+    adopt(style_.detail.rejected_detections, shown);
 }
 
 void OverlaySettings::setTentativeTracks(bool shown) {
-    adopt(style_.tentative_tracks, shown);
+    adopt(style_.detail.tentative_tracks, shown);
 }
 
 void OverlaySettings::setMinScore(double score) {

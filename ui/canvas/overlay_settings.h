@@ -7,9 +7,10 @@
 
 namespace eyrie::ui {
 
-/// Which kinds of overlay are shown: what each workspace keeps for itself.
+/// Which kinds of overlay are shown, and with what: what each workspace keeps for itself.
 struct OverlayProfile {
     std::set<OverlayKind> visible;
+    OverlayDetail detail;
 
     void set(OverlayKind kind, bool shown);
     bool operator==(const OverlayProfile&) const = default;
@@ -23,9 +24,9 @@ class OverlaySettings : public QObject {
     /// Shows what tuning the chain shows at first.
     explicit OverlaySettings(QObject* parent = nullptr);
 
-    bool isVisible(OverlayKind kind) const { return profile_.visible.contains(kind); }
+    bool isVisible(OverlayKind kind) const { return visible_.contains(kind); }
     void setVisible(OverlayKind kind, bool visible);
-    const OverlayProfile& profile() const { return profile_; }
+    OverlayProfile profile() const { return {visible_, style_.detail}; }
     /// Ends the hiding of all.
     void setProfile(const OverlayProfile& profile);
 
@@ -37,8 +38,9 @@ class OverlaySettings : public QObject {
     bool isDrawn(OverlayKind kind) const { return !hidden_ && isVisible(kind); }
 
     const OverlayStyle& style() const { return style_; }
-    PaletteKind palette() const { return palette_; }
+    PaletteKind palette() const { return style_.palette; }
     void setPalette(PaletteKind palette);
+    /// A factor that is shorter or longer than vectors can be drawn becomes the nearest one.
     void setVectorLengthFactor(double factor);
     void setLabels(bool shown);
     void setTrails(bool shown);
@@ -53,10 +55,9 @@ class OverlaySettings : public QObject {
     template <class Value>
     void adopt(Value& field, Value value);
 
-    OverlayProfile profile_;
+    std::set<OverlayKind> visible_;
     bool hidden_ = false;
     OverlayStyle style_;
-    PaletteKind palette_ = PaletteKind::thesis;
 };
 
 }  // namespace eyrie::ui

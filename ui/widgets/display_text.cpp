@@ -4,6 +4,7 @@
 #include <QLocale>
 #include <cmath>
 
+#include "core/project_name.h"
 #include "core/text.h"
 #include "core/time_text.h"
 
@@ -63,6 +64,10 @@ QString durationText(double seconds) {
 QString withEnding(const QString& path, const char* ending) {
     if (path.isEmpty() || hasEnding(path.toStdString(), ending)) return path;
     return path + QString::fromLatin1(ending);
+}
+
+QString projectFilter() {
+    return QObject::tr("Eyrie projects (*%1)").arg(QString::fromLatin1(kProjectEnding));
 }
 
 QString leftText(double seconds) {

@@ -38,6 +38,9 @@ QString localTimeText(const std::string& utc);
 /// The path of a file as a person named it, with the ending (".ts") that it should have; an empty one stays empty.
 QString withEnding(const QString& path, const char* ending);
 
+/// How dialogs ask for projects: "Eyrie projects (*.eyrie)".
+QString projectFilter();
+
 /// How much longer something takes, rounded up to seconds: "0:05 left".
 QString leftText(double seconds);
 

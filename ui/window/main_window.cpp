@@ -78,6 +78,7 @@ constexpr int kStyleCache_kB = 2048;
 constexpr int kLeastLabelRows_px = 68;
 constexpr int kMostLabelRows_px = 118;
 const QString kWorkspaces = QStringLiteral("window/workspaces");
+const QString kColourBlind = QStringLiteral("window/colour_blind");  ///< of all workspaces: eyes stay the same
 
 }  // namespace
 
@@ -253,6 +254,8 @@ void MainWindow::buildWorkspaces() {
         evaluation_->enterWorkspace(kind);
         showPicture();
     });
+    overlays_.setPalette(settings_.value(kColourBlind, false).toBool() ? PaletteKind::colour_blind
+                                                                       : PaletteKind::thesis);
     workspaces_->restore(settings_.value(kWorkspaces, {}).toMap());
 }
 
@@ -434,6 +437,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
     }
     files_->rememberView();
     settings_.setGeometry(saveGeometry());
+    settings_.setValue(kColourBlind, overlays_.palette() == PaletteKind::colour_blind);
     settings_.setValue(kWorkspaces, workspaces_->state());
     session_.stopRun();  // the run's own thread finishes storing while the program goes down
     event->accept();

@@ -8,6 +8,8 @@
 
 #include "canvas/video_view.h"
 #include "core/project_name.h"
+#include "io/file_kind.h"
+#include "io/video/parts/part_list.h"
 #include "session/project/earlier_states.h"
 #include "store/health/file_check.h"
 #include "widgets/display_text.h"
@@ -91,12 +93,12 @@ void OpenedFiles::start(const StartOptions& options) {
 }
 
 void OpenedFiles::openVideo() {
-    const QStringList paths =
-        QFileDialog::getOpenFileNames(&parts_.window, tr("Open video, or several files that are one"),
-                                      parts_.settings.value(kFolder, QString()).toString(),
-                                      tr("Videos (*.mp4 *.mkv *.mov *.avi *.ts *.m2ts *.mts *.mpg *.mpeg *.m4v *.webm "
-                                         "*.wmv *.mxf *.parts);;All files "
-                                         "(*)"));
+    const QStringList paths = QFileDialog::getOpenFileNames(
+        &parts_.window, tr("Open video, or several files that are one"),
+        parts_.settings.value(kFolder, QString()).toString(),
+        tr("Videos (%1 *%2);;All files (*)")
+            .arg(QString::fromStdString(videoFilePatterns()), QString::fromLatin1(kPartListEnding)),
+        nullptr, QFileDialog::HideNameFilterDetails);  // more endings than a dialog is wide
     if (!paths.isEmpty()) open(paths);
 }
 
@@ -109,7 +111,7 @@ void OpenedFiles::openFolder() {
 void OpenedFiles::openProject() {
     const QString path = QFileDialog::getOpenFileName(&parts_.window, tr("Open project"),
                                                       parts_.settings.value(kFolder, QString()).toString(),
-                                                      tr("Eyrie projects (*.eyrie);;All files (*)"));
+                                                      projectFilter() + tr(";;All files (*)"));
     if (!path.isEmpty()) open(path);
 }
 
@@ -152,9 +154,8 @@ void OpenedFiles::openRecent(const RecentProject& project) {
 
 QString OpenedFiles::chosenTarget(const QString& title) {
     // No file that is there is replaced, so nobody needs to be asked about that.
-    const QString path =
-        QFileDialog::getSaveFileName(&parts_.window, title, text(session_.project()), tr("Eyrie projects (*.eyrie)"),
-                                     nullptr, QFileDialog::DontConfirmOverwrite);
+    const QString path = QFileDialog::getSaveFileName(&parts_.window, title, text(session_.project()), projectFilter(),
+                                                      nullptr, QFileDialog::DontConfirmOverwrite);
     return withEnding(path, kProjectEnding);
 }
 

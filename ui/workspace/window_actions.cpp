@@ -3,7 +3,6 @@
 #include <QActionGroup>
 #include <QIcon>
 #include <QWidget>
-#include <algorithm>
 
 #include "canvas/layers/overlay_table.h"
 #include "widgets/wiring.h"
@@ -282,15 +281,11 @@ void WindowActions::addOverlays(OverlaySettings& overlays) {
         overlay[row.kind] = action;
         bindSwitches(this, {{action, [&overlays, kind = row.kind](bool on) { overlays.setVisible(kind, on); }}});
     }
-    connect(&overlays, &OverlaySettings::changed, this, [this, &overlays] {
-        for (const OverlayRow& row : overlayTable()) overlay.at(row.kind)->setChecked(overlays.isVisible(row.kind));
-        hide_overlays->setChecked(overlays.hidden());
-    });
-    const OverlayStyle& style = overlays.style();
-    labels = addToggle(tr("Track la&bels"), {nullptr, {onOverlay(Qt::Key_B)}}, style.labels);
-    trails = addToggle(tr("Tr&ails"), {nullptr, {onOverlay(Qt::Key_A)}}, style.trails);
-    rejected = addToggle(tr("Re&jected detections"), {nullptr, {onOverlay(Qt::Key_X)}}, style.rejected_detections);
-    tentative = addToggle(tr("T&entative tracks"), {nullptr, {onOverlay(Qt::Key_Y)}}, style.tentative_tracks);
+    const OverlayDetail& detail = overlays.style().detail;
+    labels = addToggle(tr("Track la&bels"), {nullptr, {onOverlay(Qt::Key_B)}}, detail.labels);
+    trails = addToggle(tr("Tr&ails"), {nullptr, {onOverlay(Qt::Key_A)}}, detail.trails);
+    rejected = addToggle(tr("Re&jected detections"), {nullptr, {onOverlay(Qt::Key_X)}}, detail.rejected_detections);
+    tentative = addToggle(tr("T&entative tracks"), {nullptr, {onOverlay(Qt::Key_Y)}}, detail.tentative_tracks);
     longer_vectors = add(tr("Longer vectors"), {nullptr, {onOverlay(Qt::Key_PageUp)}});
     shorter_vectors = add(tr("Shorter vectors"), {nullptr, {onOverlay(Qt::Key_PageDown)}});
     colour_blind =
@@ -300,7 +295,7 @@ void WindowActions::addOverlays(OverlaySettings& overlays) {
                   {nullptr, {onOverlay(Qt::Key_0)}, QT_TR_NOOP("Show the picture alone; again: what was drawn before")},
                   overlays.hidden());
     const auto scale_vectors = [&overlays](double factor) {
-        overlays.setVectorLengthFactor(std::clamp(overlays.style().vector_length_factor * factor, 1.0, 100.0));
+        overlays.setVectorLengthFactor(overlays.style().detail.vector_length_factor * factor);
     };
     bindSwitches(
         this, {
@@ -314,6 +309,18 @@ void WindowActions::addOverlays(OverlaySettings& overlays) {
               });
     bindCommands(this, {{longer_vectors, [scale_vectors] { scale_vectors(1.5); }},
                         {shorter_vectors, [scale_vectors] { scale_vectors(1 / 1.5); }}});
+    connect(&overlays, &OverlaySettings::changed, this, [this, &overlays] { followOverlays(overlays); });
+}
+
+void WindowActions::followOverlays(const OverlaySettings& overlays) {
+    for (const OverlayRow& row : overlayTable()) overlay.at(row.kind)->setChecked(overlays.isVisible(row.kind));
+    const OverlayDetail& detail = overlays.style().detail;
+    labels->setChecked(detail.labels);
+    trails->setChecked(detail.trails);
+    rejected->setChecked(detail.rejected_detections);
+    tentative->setChecked(detail.tentative_tracks);
+    colour_blind->setChecked(overlays.palette() == PaletteKind::colour_blind);
+    hide_overlays->setChecked(overlays.hidden());
 }
 
 }  // namespace eyrie::ui

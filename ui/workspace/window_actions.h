@@ -54,6 +54,7 @@ class WindowActions : public QObject {
     QAction* addToggle(const QString& text, const Look& look, bool checked);
     void addEvents();
     void addOverlays(OverlaySettings& overlays);
+    void followOverlays(const OverlaySettings& overlays);
 
     QWidget* parent_;
     QList<ActionSection> sections_;

@@ -17,6 +17,18 @@ constexpr int kLayoutVersion = 5;  ///< counts up when stored layouts no longer 
 const QString kCurrent = QStringLiteral("current");
 const QString kLayout = QStringLiteral("/layout");
 const QString kOverlays = QStringLiteral("/overlays");
+const QString kDetail = QStringLiteral("/overlay_detail");
+const QString kVectorLength = QStringLiteral("vector_length");
+
+/// What of an overlay's detail is on or off, by the word under which settings keep it.
+struct DetailSwitch {
+    QString word;
+    bool OverlayDetail::*shown;
+};
+const DetailSwitch kDetailSwitches[] = {{QStringLiteral("captions"), &OverlayDetail::labels},
+                                        {QStringLiteral("trails"), &OverlayDetail::trails},
+                                        {QStringLiteral("rejected"), &OverlayDetail::rejected_detections},
+                                        {QStringLiteral("tentative"), &OverlayDetail::tentative_tracks}};
 
 QString wordOf(OverlayKind kind) {
     return QString::fromLatin1(kind.word.data(), static_cast<qsizetype>(kind.word.size()));
@@ -28,6 +40,30 @@ OverlayProfile firstProfile(WorkspaceKind kind) {
         profile.set(row.kind, kind == WorkspaceKind::review  ? row.in_review
                               : kind == WorkspaceKind::label ? row.in_label
                                                              : row.in_tune);
+    return profile;
+}
+
+QVariantMap overlaysIn(const OverlayProfile& profile) {
+    QVariantMap shown;
+    for (const OverlayRow& row : overlayTable()) shown[wordOf(row.kind)] = profile.visible.contains(row.kind);
+    return shown;
+}
+
+QVariantMap detailIn(const OverlayProfile& profile) {
+    QVariantMap detail{{kVectorLength, profile.detail.vector_length_factor}};
+    for (const DetailSwitch& each : kDetailSwitches) detail[each.word] = profile.detail.*each.shown;
+    return detail;
+}
+
+/// What settings do not know, which the version before did not have, is as at the first start.
+OverlayProfile profileFrom(WorkspaceKind kind, const QVariantMap& overlays, const QVariantMap& detail) {
+    OverlayProfile profile = firstProfile(kind);
+    for (const OverlayRow& row : overlayTable())
+        if (overlays.contains(wordOf(row.kind))) profile.set(row.kind, overlays[wordOf(row.kind)].toBool());
+    for (const DetailSwitch& each : kDetailSwitches)
+        if (detail.contains(each.word)) profile.detail.*each.shown = detail[each.word].toBool();
+    const double length = detail.value(kVectorLength).toDouble();
+    if (length >= kShortestVectors && length <= kLongestVectors) profile.detail.vector_length_factor = length;
     return profile;
 }
 
@@ -95,11 +131,9 @@ QVariantMap Workspaces::state() {
     state[kCurrent] = wordOf(current_);
     for (const WorkspaceKind kind : allWorkspaces()) {
         if (look(kind).layout.isEmpty()) continue;
-        QVariantMap shown;
-        for (const OverlayRow& row : overlayTable())
-            shown[wordOf(row.kind)] = look(kind).overlays.visible.contains(row.kind);
         state[wordOf(kind) + kLayout] = look(kind).layout;
-        state[wordOf(kind) + kOverlays] = shown;
+        state[wordOf(kind) + kOverlays] = overlaysIn(look(kind).overlays);
+        state[wordOf(kind) + kDetail] = detailIn(look(kind).overlays);
     }
     return state;
 }
@@ -107,11 +141,8 @@ QVariantMap Workspaces::state() {
 void Workspaces::restore(const QVariantMap& state) {
     for (const WorkspaceKind kind : allWorkspaces()) {
         look(kind).layout = state.value(wordOf(kind) + kLayout).toByteArray();
-        // What is not known of an overlay, which the version before did not have, is as at the first start.
-        look(kind).overlays = firstProfile(kind);
-        const QVariantMap shown = state.value(wordOf(kind) + kOverlays).toMap();
-        for (const OverlayRow& row : overlayTable())
-            if (shown.contains(wordOf(row.kind))) look(kind).overlays.set(row.kind, shown[wordOf(row.kind)].toBool());
+        look(kind).overlays = profileFrom(kind, state.value(wordOf(kind) + kOverlays).toMap(),
+                                          state.value(wordOf(kind) + kDetail).toMap());
     }
     show(workspaceOf(state.value(kCurrent).toString()).value_or(WorkspaceKind::review));
 }

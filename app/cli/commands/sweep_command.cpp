@@ -170,7 +170,8 @@ int sweep(const SweepArguments& arguments) {
     const std::string& out = arguments.out.empty() ? arguments.sources.project : arguments.out;
     if (!keepEarlierState(out, interrupt.token())) return exit_stopped;
     ProjectFile project = ProjectFile::openOrCreate(out);
-    const int id = beginSweep(project, plan, arguments.name, arguments.resume || !arguments.shard.empty());
+    const bool goes_on = arguments.resume || !arguments.shard.empty();
+    const int id = beginSweep(project, plan, arguments.name, goes_on ? SweepFound::resumed : SweepFound::refused);
     const bool whole = runMissing(arguments, plan, opened.inputs, chosenPositions(plan, arguments.shard), project, id,
                                   interrupt.token());
 

@@ -10,6 +10,10 @@ bool isVehicleClass(const std::string& object_class) {
            object_class == "vehicle";
 }
 
+std::string originText(const BoxRecord& record) {
+    return record.origin ? nameOf(*record.origin) : "";
+}
+
 bool allUpright(const BoxesByFrame& boxes) {
     constexpr double kTurned = 1e-6;
     return std::all_of(boxes.begin(), boxes.end(), [](const auto& entry) {

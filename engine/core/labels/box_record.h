@@ -9,6 +9,7 @@
 
 #include "core/geometry/oriented_box.h"
 #include "core/values/ids.h"
+#include "core/values/track_state.h"
 
 namespace eyrie {
 
@@ -22,7 +23,7 @@ struct BoxRecord {
     bool ignore = false;         ///< ground truth: counts neither way
     double score = 1;            ///< results: higher is surer
     cv::Point2d velocity{0, 0};  ///< px/frame relative to the ground; 0 where unknown
-    std::string origin;          ///< results: detected, reconstructed or predicted; may be empty
+    std::optional<StateOrigin> origin;  ///< results: where the box came from, as far as it is known
 };
 
 /// All boxes of a file, by frame.
@@ -32,6 +33,9 @@ using BoxesByFrame = std::map<FrameIndex, std::vector<BoxRecord>>;
 using BoxVisitor = std::function<void(FrameIndex, const BoxRecord&)>;
 /// Hands boxes over one by one, in ascending frames, so that they need not all be held at once.
 using VisitBoxes = std::function<void(const BoxVisitor&)>;
+
+/// The word for where a box came from, as tables have it; empty where it is not known.
+std::string originText(const BoxRecord& record);
 
 /// Whether all boxes lie along the image's axes, so that there may be no headings in them.
 bool allUpright(const BoxesByFrame& boxes);

@@ -30,4 +30,10 @@ const char* nameOf(TrackStatus status) {
     return "";
 }
 
+std::optional<StateOrigin> stateOriginOf(std::string_view word) {
+    for (int i = 0; i < kStateOrigins; ++i)
+        if (word == nameOf(static_cast<StateOrigin>(i))) return static_cast<StateOrigin>(i);
+    return std::nullopt;
+}
+
 }  // namespace eyrie

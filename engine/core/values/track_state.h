@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <opencv2/core/types.hpp>
+#include <optional>
+#include <string_view>
 
 #include "core/geometry/oriented_box.h"
 #include "core/values/ids.h"
@@ -42,5 +44,7 @@ struct TrackState {
 /// The word used in files and on screen.
 const char* nameOf(StateOrigin origin);
 const char* nameOf(TrackStatus status);
+/// What nameOf() calls so; nothing where none is called so.
+std::optional<StateOrigin> stateOriginOf(std::string_view word);
 
 }  // namespace eyrie

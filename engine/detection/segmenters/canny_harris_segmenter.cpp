@@ -78,10 +78,10 @@ cv::Mat CannyHarrisSegmenter::objectPixels(const MotionRoi& roi, DetectionTrace*
     const cv::Mat clustered = (edges | corners) & nearClusters(corners);
     cv::Mat closed;
     cv::morphologyEx(clustered, closed, cv::MORPH_CLOSE, closing_);
-    addLayer(trace, "edges", edges);
-    addLayer(trace, "corners", corners);
-    addLayer(trace, "clustered", clustered);
-    addLayer(trace, "closed", closed);
+    addLayer(trace, TraceLayer::edges, edges);
+    addLayer(trace, TraceLayer::corners, corners);
+    addLayer(trace, TraceLayer::clustered, clustered);
+    addLayer(trace, TraceLayer::closed, closed);
     return closed;
 }
 

@@ -79,11 +79,11 @@ cv::Mat GradientSegmenter::quantileMask(const MotionRoi& roi) const {
 std::vector<cv::Rect2d> GradientSegmenter::segment(const MotionRoi& roi, DetectionTrace* trace) const {
     const cv::Mat gradient = gradientOf(roi.image);
     if (trace != nullptr) {
-        trace->add("gradient", gradient);
-        if (options_.method == GradientMethod::lbp) trace->add("lbp mask", gradient > 0);
+        trace->add(TraceLayer::gradient, gradient);
+        if (options_.method == GradientMethod::lbp) trace->add(TraceLayer::lbp_mask, gradient > 0);
     }
     const cv::Mat quantile_mask = quantileMask(roi);
-    if (trace != nullptr) trace->add("quantile area", quantile_mask);
+    if (trace != nullptr) trace->add(TraceLayer::quantile_area, quantile_mask);
     const auto threshold = quantileThreshold(gradient, quantile_mask, options_.effectiveQuantile());
     if (!threshold) return {};
     cv::Mat binary;
@@ -94,11 +94,11 @@ std::vector<cv::Rect2d> GradientSegmenter::segment(const MotionRoi& roi, Detecti
     const std::vector<Region> regions = findRegions(closed, options_.min_box_area_px, labels);
     std::vector<cv::Rect2d> boxes = component_boxes_.select(regions, labels, roi.vectors, trace);
     if (trace != nullptr) {
-        trace->add("binary", binary);
-        trace->add("closed", closed);
+        trace->add(TraceLayer::binary, binary);
+        trace->add(TraceLayer::closed, closed);
         cv::Mat components;
         labels.convertTo(components, CV_8U);
-        trace->add("components", components, boxes);
+        trace->add(TraceLayer::components, components, boxes);
     }
     return boxes;
 }
@@ -127,7 +127,7 @@ std::vector<Detection> GradientSegmenter::decide(const MotionRoi& roi, const Pre
 }
 
 std::vector<Detection> GradientSegmenter::detect(const MotionRoi& roi, DetectionTrace* trace) const {
-    if (trace != nullptr) trace->add("raw", roi.image);
+    if (trace != nullptr) trace->add(TraceLayer::raw, roi.image);
     if (roi.image.empty()) return {};
     return detectionsOf(roi, segment(roi, trace), trace);
 }

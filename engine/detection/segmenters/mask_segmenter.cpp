@@ -19,15 +19,15 @@ GradientOptions withoutReach(GradientOptions options) {
 
 }  // namespace
 
-void addLayer(DetectionTrace* trace, const char* name, const cv::Mat& image) {
+void addLayer(DetectionTrace* trace, TraceLayer kind, const cv::Mat& image) {
     if (trace == nullptr) return;
     if (image.type() == CV_8UC1 || image.type() == CV_32FC1) {
-        trace->add(name, image);
+        trace->add(kind, image);
         return;
     }
     cv::Mat shown;
     image.convertTo(shown, CV_32F);
-    trace->add(name, shown);
+    trace->add(kind, shown);
 }
 
 cv::Mat discElement(double diameter_px) {
@@ -65,13 +65,13 @@ std::vector<cv::Rect2d> MaskSegmenter::segment(const MotionRoi& roi, DetectionTr
     if (trace != nullptr) {
         cv::Mat components;
         labels.convertTo(components, CV_8U);
-        trace->add("components", components, boxes);
+        trace->add(TraceLayer::components, components, boxes);
     }
     return boxes;
 }
 
 std::vector<Detection> MaskSegmenter::detect(const MotionRoi& roi, DetectionTrace* trace) const {
-    if (trace != nullptr) trace->add("raw", roi.image);
+    if (trace != nullptr) trace->add(TraceLayer::raw, roi.image);
     if (roi.image.empty()) return {};
     const std::vector<cv::Rect2d> boxes = segment(roi, trace);
     if (components_.fall_back && !component_boxes_.explain(boxes, roi.vectors, trace))

@@ -31,7 +31,7 @@ class MaskSegmenter : public Detector {
 };
 
 /// Adds a layer scaled to its largest value, for images whose range says nothing; does nothing without a trace.
-void addLayer(DetectionTrace* trace, const char* name, const cv::Mat& image);
+void addLayer(DetectionTrace* trace, TraceLayer kind, const cv::Mat& image);
 
 /// A filled disc of this diameter as structuring element; at least 1 px, made odd.
 cv::Mat discElement(double diameter_px);

@@ -87,8 +87,8 @@ cv::Mat MserSegmenter::objectPixels(const MotionRoi& roi, DetectionTrace* trace)
             if (fits) kept.at<uchar>(p) = 255;
         }
     }
-    addLayer(trace, "regions", all);
-    addLayer(trace, "binary", kept);
+    addLayer(trace, TraceLayer::regions, all);
+    addLayer(trace, TraceLayer::binary, kept);
     return kept;
 }
 

@@ -69,7 +69,7 @@ cv::Mat RelativeConnectivitySegmenter::objectPixels(const MotionRoi& roi, Detect
     cv::Scalar mean;
     cv::Scalar deviation;
     cv::meanStdDev(scaled, mean, deviation, inside);
-    const auto areas = [&](const cv::Mat& image, double mean_grey, const char* lines_name, const char* binary_name) {
+    const auto areas = [&](const cv::Mat& image, double mean_grey, TraceLayer lines_kind, TraceLayer areas_kind) {
         const cv::Mat belonging = (image >= mean_grey + options_.deviations * deviation[0]) & inside;
         const cv::Mat accumulator = relativeConnectivity(belonging, options_.min_points);
         cv::Mat closed;
@@ -77,18 +77,18 @@ cv::Mat RelativeConnectivitySegmenter::objectPixels(const MotionRoi& roi, Detect
         if (trace != nullptr) {
             cv::Mat strength;
             accumulator.convertTo(strength, CV_32F);
-            addLayer(trace, lines_name, resized(strength, roi.image.size(), cv::INTER_LINEAR));
-            addLayer(trace, binary_name, resized(closed, roi.image.size(), cv::INTER_NEAREST));
+            addLayer(trace, lines_kind, resized(strength, roi.image.size(), cv::INTER_LINEAR));
+            addLayer(trace, areas_kind, resized(closed, roi.image.size(), cv::INTER_NEAREST));
         }
         return closed;
     };
     if (deviation[0] <= 0) return cv::Mat::zeros(roi.image.size(), CV_8UC1);
-    const cv::Mat bright = areas(scaled, mean[0], "bright lines", "bright areas");
+    const cv::Mat bright = areas(scaled, mean[0], TraceLayer::bright_lines, TraceLayer::bright_areas);
     const cv::Mat inverted = 255 - scaled;
-    const cv::Mat dark = areas(inverted, 255 - mean[0], "dark lines", "dark areas");
+    const cv::Mat dark = areas(inverted, 255 - mean[0], TraceLayer::dark_lines, TraceLayer::dark_areas);
     // Of a scaled-down mask pixels that are mostly covered remain.
     const cv::Mat fused = resized(cv::max(bright, dark), roi.image.size(), cv::INTER_AREA) >= 128;
-    addLayer(trace, "fused", fused);
+    addLayer(trace, TraceLayer::fused, fused);
     return fused;
 }
 

@@ -62,11 +62,11 @@ cv::Mat TophatOtsuSegmenter::objectPixels(const MotionRoi& roi, DetectionTrace* 
     } else {
         cv::morphologyEx(binary, closed, cv::MORPH_CLOSE, joining_);
     }
-    addLayer(trace, "smoothed", smooth);
-    addLayer(trace, "white tophat", white);
-    addLayer(trace, "black tophat", black);
-    addLayer(trace, "binary", binary);
-    addLayer(trace, "closed", closed);
+    addLayer(trace, TraceLayer::smoothed, smooth);
+    addLayer(trace, TraceLayer::white_tophat, white);
+    addLayer(trace, TraceLayer::black_tophat, black);
+    addLayer(trace, TraceLayer::binary, binary);
+    addLayer(trace, TraceLayer::closed, closed);
     return closed;
 }
 

@@ -1,7 +1,6 @@
 #include "detection/sliding_window/sliding_window_detector.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 #include <opencv2/imgproc.hpp>
 #include <optional>
@@ -69,12 +68,6 @@ std::vector<cv::Rect2d> boxesOf(const std::vector<WindowHypothesis>& hypotheses)
     return boxes;
 }
 
-std::string layerName(double scale) {
-    char text[32];
-    std::snprintf(text, sizeof text, "decision ×%.2f", scale);
-    return text;
-}
-
 }  // namespace
 
 SlidingWindowDetector::SlidingWindowDetector(VehicleModel model, const SlidingWindowOptions& options,
@@ -111,7 +104,7 @@ std::vector<Detection> SlidingWindowDetector::decide(const MotionRoi& roi, const
 }
 
 std::vector<Detection> SlidingWindowDetector::detect(const MotionRoi& roi, DetectionTrace* trace) const {
-    if (trace != nullptr) trace->add("raw", roi.image);
+    if (trace != nullptr) trace->add(TraceLayer::raw, roi.image);
     if (roi.image.empty()) return {};
     std::vector<WindowHypothesis> hypotheses;
     std::vector<cv::Mat> decisions;
@@ -127,7 +120,7 @@ std::vector<Detection> SlidingWindowDetector::detect(const MotionRoi& roi, Detec
         }
         if (trace != nullptr) {
             const cv::Size rescaled = rescaledSize(roi.image.size(), scale, options_, scale_);
-            trace->add(layerName(scale), overArea(decision, rescaled, roi.image.size()));
+            trace->addDecision(scale, overArea(decision, rescaled, roi.image.size()));
         }
     }
     if (const auto best = trace != nullptr ? largestOf(decisions) : std::nullopt) {
@@ -135,9 +128,9 @@ std::vector<Detection> SlidingWindowDetector::detect(const MotionRoi& roi, Detec
                              {"decision value of the best window", "sliding_window.decision_threshold", *best,
                               options_.decision_threshold, false, *best >= options_.decision_threshold});
     }
-    if (trace != nullptr) trace->add("first suppression", roi.image, boxesOf(hypotheses));
+    if (trace != nullptr) trace->add(TraceLayer::first_suppression, roi.image, boxesOf(hypotheses));
     hypotheses = suppressOverlapping(std::move(hypotheses), options_.overlap_threshold);
-    if (trace != nullptr) trace->add("second suppression", roi.image, boxesOf(hypotheses));
+    if (trace != nullptr) trace->add(TraceLayer::second_suppression, roi.image, boxesOf(hypotheses));
     return detectionsOf(roi, hypotheses);
 }
 

@@ -16,7 +16,7 @@ class SlidingWindowDetector : public Detector {
     SlidingWindowDetector(VehicleModel model, const SlidingWindowOptions& options, const SceneScale& scale,
                           double cluster_margin_px);
 
-    /// Trace layers: raw, "decision ×S" for every scale S (decision values at the windows' centres), first and second
+    /// Trace layers: raw, the decision of every scale (decision values at the windows' centres), first and second
     /// suppression (raw, with the boxes left).
     std::vector<Detection> detect(const MotionRoi& roi, DetectionTrace* trace = nullptr) const override;
 

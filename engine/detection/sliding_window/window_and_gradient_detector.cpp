@@ -31,14 +31,14 @@ namespace {
 void addWidened(DetectionTrace& trace, const DetectionTrace& inner, cv::Size whole) {
     cv::Point2d offset_of_inner(0, 0);
     for (const DetectionTrace::Layer& layer : inner.layers) {
-        if (layer.name == "raw") continue;
+        if (layer.kind == TraceLayer::raw) continue;
         const cv::Point offset((whole.width - layer.image.cols) / 2, (whole.height - layer.image.rows) / 2);
         offset_of_inner = offset;
         cv::Mat image(whole, layer.image.type(), cv::Scalar(0));
         layer.image.copyTo(image(cv::Rect(offset, layer.image.size())));
         std::vector<cv::Rect2d> boxes = layer.boxes;
         for (cv::Rect2d& box : boxes) box += cv::Point2d(offset);
-        trace.layers.push_back({layer.name, image, std::move(boxes)});
+        trace.layers.push_back({layer.kind, image, std::move(boxes), layer.scale});
     }
     for (DetectionTrace::Check check : inner.checks) {
         if (check.box.area() > 0) check.box += offset_of_inner;

@@ -43,7 +43,7 @@ std::string rowOf(const LabelBox& box, const TrackWorld* world, double rate) {
                : ",";
     return row + ',' + optionalText(state.speed_km_h, 2) + ',' + optionalText(state.course_deg, 1) + ',' +
            optionalText(state.length_m, 2) + ',' + optionalText(state.width_m, 2) + ',' + csvField(box.object_class) +
-           ',' + fixedText(box.score, 6) + ',' + csvField(box.origin) + '\n';
+           ',' + fixedText(box.score, 6) + ',' + originText(box) + '\n';
 }
 
 void writeTracksCsv(const LabelStream& labels, const std::filesystem::path& path, const ExportOptions&,

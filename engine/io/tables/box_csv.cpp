@@ -74,7 +74,7 @@ BoxesByFrame readBoxCsv(const std::filesystem::path& path) {
         record.ignore = parseIgnore(csv);
         record.score = csv.real("score", 1.0);
         record.velocity = {csv.real("vx", 0.0), csv.real("vy", 0.0)};
-        record.origin = csv.text("origin");
+        record.origin = stateOriginOf(csv.text("origin"));
 
         const std::string id = csv.text("id");
         std::vector<BoxRecord>& in_frame = boxes[record.frame];
@@ -113,7 +113,7 @@ void writeResultCsv(const std::filesystem::path& path, const VisitBoxes& boxes) 
     boxes([&](FrameIndex frame, const BoxRecord& record) {
         file.write(beginningOf(frame, record) + ',' + fixedText(record.score, kFineDecimals) + ',' +
                    fixedText(record.velocity.x, kFineDecimals) + ',' + fixedText(record.velocity.y, kFineDecimals) +
-                   ',' + csvField(record.origin) + '\n');
+                   ',' + originText(record) + '\n');
     });
     file.finish();
 }

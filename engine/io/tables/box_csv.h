@@ -11,8 +11,9 @@ namespace eyrie {
 /// in [0, 360).
 
 /// Reads either table. Columns are found by name, in any order; frame, x, y, length, width and heading must be there,
-/// the others have defaults, unknown ones are skipped. An ignored object may have a name for an id ("i18"); it gets
-/// a number above all others. Throws Error(input) naming file, line and column.
+/// the others have defaults, unknown ones are skipped, and so is a word for the origin that is none of ours. An ignored
+/// object may have a name for an id ("i18"); it gets a number above all others. Throws Error(input) naming file, line
+/// and column.
 BoxesByFrame readBoxCsv(const std::filesystem::path& path);
 
 /// Lengths with 4 decimals. Throws Error(output); the file is either complete or as it was before.

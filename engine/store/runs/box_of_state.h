@@ -13,7 +13,7 @@ inline BoxRecord boxOf(FrameIndex frame, const TrackState& state) {
     record.box = state.box;
     record.score = state.score;
     record.velocity = state.velocity;
-    record.origin = nameOf(state.origin);
+    record.origin = state.origin;
     return record;
 }
 

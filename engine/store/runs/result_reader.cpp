@@ -334,7 +334,7 @@ void RunStore::visitDetectionBoxes(int run_id, const BoxVisitor& visitor) const 
             record.box = row.box();
             record.velocity = row.point();
             record.score = row.real();
-            record.origin = nameOf(StateOrigin::detected);
+            record.origin = StateOrigin::detected;
             visitor(record.frame, record);
         }
     });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "chain/parameter_stage.h"
 #include "core/error.h"
 #include "detection/detector_factory.h"
 #include "evaluation/evaluate.h"
@@ -18,28 +19,32 @@ std::int64_t productOf(const std::vector<SweepAxis>& axes) {
     return product;
 }
 
-/// Whether a value of the axis may need a model file.
-bool choosesModels(const SweepAxis& axis) {
-    return axis.name == "detection.method" || axis.name == "sliding_window.model" ||
-           axis.name == "sliding_window.descriptor";
+/// The axes of which a value may need a model file.
+std::vector<SweepAxis> modelAxes(const SweepPlan& plan) {
+    ChainOptions options;
+    const std::vector<Parameter> parameters = listParameters(describeOf(options));
+    std::vector<SweepAxis> axes = plan.axes;
+    std::erase_if(axes, [&](const SweepAxis& axis) {
+        return std::none_of(parameters.begin(), parameters.end(), [&](const Parameter& parameter) {
+            return parameter.name == axis.name && parameter.effect.chooses_model;
+        });
+    });
+    return axes;
 }
 
 /// Shows early which models cannot be used.
 void checkModels(const SweepPlan& plan) {
     const auto tried = [&](const ChainOptions& options) { makeDetector(options.detection, plan.clips.front().scale); };
-    if (std::none_of(plan.axes.begin(), plan.axes.end(), choosesModels)) {
-        tried(plan.baseOptions());
-        return;
-    }
-    for (std::size_t a = 0; a < plan.axes.size(); ++a) {
-        if (!choosesModels(plan.axes[a])) continue;
-        for (const std::string& value : plan.axes[a].values) {
+    const std::vector<SweepAxis> axes = modelAxes(plan);
+    if (axes.empty()) tried(plan.baseOptions());
+    for (const SweepAxis& axis : axes) {
+        for (const std::string& value : axis.values) {
             ChainOptions options = plan.baseOptions();
-            setParameter(describeOf(options), plan.axes[a].name, value);
+            setParameter(describeOf(options), axis.name, value);
             try {
                 tried(options);
             } catch (const Error& error) {
-                throw Error(error.kind(), plan.axes[a].name + " = " + value + ": " + error.what());
+                throw Error(error.kind(), axis.name + " = " + value + ": " + error.what());
             }
         }
     }

@@ -60,10 +60,10 @@ std::optional<SweepRecord> sweepOf(ProjectFile& project, const SweepPlan& plan) 
     return std::nullopt;
 }
 
-int beginSweep(ProjectFile& project, const SweepPlan& plan, const std::string& name, bool resume) {
+int beginSweep(ProjectFile& project, const SweepPlan& plan, const std::string& name, SweepFound found) {
     const auto known = sweepOf(project, plan);
     if (!known) return SweepStore(project).add(name, plan.pointCount(), textOf(plan));
-    if (resume) return known->id;
+    if (found == SweepFound::resumed) return known->id;
     throw Error(ErrorKind::parameter, project.path().string() + ": holds this sweep already, with " +
                                           std::to_string(known->points_done) + " of " +
                                           std::to_string(known->point_count) +
@@ -111,7 +111,7 @@ SweepTable mergeSweeps(const std::vector<std::filesystem::path>& files, const st
         }
     }
     ProjectFile project = ProjectFile::openOrCreate(out);
-    const int id = beginSweep(project, shards.front().plan, shards.front().name, true);
+    const int id = beginSweep(project, shards.front().plan, shards.front().name, SweepFound::resumed);
     SweepStore store(project);
     for (const auto& [position, known] : points) store.addPoint(id, *known.second);
     return readSweep(project, id);

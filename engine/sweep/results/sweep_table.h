@@ -28,9 +28,15 @@ struct SweepTable {
 /// Reads a sweep of a project; by default the last one. Throws Error(parameter) when there is none, Error(project).
 SweepTable readSweep(ProjectFile& project, std::optional<int> id = {});
 
+/// What becomes of a sweep that a project holds already.
+enum class SweepFound {
+    refused,  ///< nobody expected it: points of two sweeps are not mixed by chance
+    resumed
+};
+
 /// Finds the sweep of this plan in the project, or adds it, and answers its number. Throws Error(parameter) when it is
-/// there already and `resume` was not asked for.
-int beginSweep(ProjectFile& project, const SweepPlan& plan, const std::string& name, bool resume);
+/// there already and is refused.
+int beginSweep(ProjectFile& project, const SweepPlan& plan, const std::string& name, SweepFound found);
 
 /// The sweep of this plan, if the project holds it.
 std::optional<SweepRecord> sweepOf(ProjectFile& project, const SweepPlan& plan);

@@ -253,9 +253,12 @@ class EvaluationTest : public QObject {
         const auto window = evaluatingWindow();
         QVERIFY(window);
         QVERIFY(!window->overlays().isVisible(TrackLayer::kKind));
+        QVERIFY(window->overlays().style().detail.labels);
+        QTest::keyClick(window.get(), Qt::Key_B, Qt::AltModifier);
         for (const DockId id : {DockId::evaluation, DockId::errors}) window->docks().dock(id)->hide();
         QVERIFY(window->overlays().isVisible(TrackLayer::kKind));
         QVERIFY(window->overlays().isVisible(VerdictLayer::kKind));
+        QVERIFY(!window->overlays().style().detail.labels);
     }
 
     void anErrorIsAskedWhy() {

@@ -270,6 +270,7 @@ class ModelsTest : public QObject {
         QCOMPARE(numberText(std::numeric_limits<double>::infinity(), 1), QStringLiteral("–"));
         QCOMPARE(localTimeText("yesterday"), QStringLiteral("yesterday"));
         QVERIFY(!localTimeText("2026-11-21T08:00:00Z").contains(QLatin1Char('Z')));
+        QCOMPARE(projectFilter(), QStringLiteral("Eyrie projects (*.eyrie)"));
     }
 };
 

@@ -125,11 +125,11 @@ class MainWindowTest : public QObject {
             QTest::keyClick(&window, key, Qt::AltModifier);
             QCOMPARE(window.overlays().isVisible(kind), before);
         }
-        const double length = window.overlays().style().vector_length_factor;
+        const double length = window.overlays().style().detail.vector_length_factor;
         QTest::keyClick(&window, Qt::Key_PageUp, Qt::AltModifier);
-        QVERIFY(window.overlays().style().vector_length_factor > length);
+        QVERIFY(window.overlays().style().detail.vector_length_factor > length);
         QTest::keyClick(&window, Qt::Key_B, Qt::AltModifier);
-        QVERIFY(!window.overlays().style().labels);
+        QVERIFY(!window.overlays().style().detail.labels);
     }
 
     void noTwoCommandsShareAKey() {

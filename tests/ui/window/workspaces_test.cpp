@@ -73,6 +73,7 @@ class WorkspacesTest : public QObject {
         return texts.join(QStringLiteral(", "));
     }
     static bool shown(MainWindow& window, DockId id) { return !window.docks().dock(id)->isHidden(); }
+    static OverlayDetail detail(MainWindow& window) { return window.overlays().style().detail; }
 
  private slots:
     void init() { home_ = std::make_unique<test::OwnHome>(); }
@@ -110,30 +111,54 @@ class WorkspacesTest : public QObject {
         const auto window = this->window();
         QVERIFY(window);
         window->docks().dock(DockId::runs)->hide();
-        QTest::keyClick(window.get(), Qt::Key_V, Qt::AltModifier);
+        for (const Qt::Key key : {Qt::Key_V, Qt::Key_B, Qt::Key_X, Qt::Key_PageUp})
+            QTest::keyClick(window.get(), key, Qt::AltModifier);
         go(*window, Qt::Key_3);
         QVERIFY(shown(*window, DockId::runs));
-        QTest::keyClick(window.get(), Qt::Key_V, Qt::AltModifier);  // off: it is on here at first
+        QVERIFY(detail(*window) == OverlayDetail{});
+        QVERIFY(window->actions().labels->isChecked() && !window->actions().rejected->isChecked());
+        // Vectors are on here at first, and so are trails.
+        for (const Qt::Key key : {Qt::Key_V, Qt::Key_A, Qt::Key_Y}) QTest::keyClick(window.get(), key, Qt::AltModifier);
         go(*window, Qt::Key_1);
         QVERIFY(!shown(*window, DockId::runs));
         QVERIFY(window->overlays().isVisible(VectorLayer::kKind));
+        QVERIFY(!detail(*window).labels && detail(*window).trails);
+        QVERIFY(detail(*window).rejected_detections && !detail(*window).tentative_tracks);
+        QVERIFY(detail(*window).vector_length_factor > OverlayDetail{}.vector_length_factor);
+        QVERIFY(!window->actions().labels->isChecked() && window->actions().trails->isChecked());
+        QVERIFY(window->actions().rejected->isChecked() && !window->actions().tentative->isChecked());
         go(*window, Qt::Key_3);
         QVERIFY(!window->overlays().isVisible(VectorLayer::kKind));
+        QVERIFY(detail(*window).labels && !detail(*window).trails);
+        QVERIFY(!detail(*window).rejected_detections && detail(*window).tentative_tracks);
+        QVERIFY(!window->actions().trails->isChecked() && window->actions().tentative->isChecked());
     }
 
     void allIsRememberedFromOneStartToTheNext() {
+        OverlayDetail reviewed;
         {
             const auto first = window();
             QVERIFY(first);
             first->docks().dock(DockId::inspector)->hide();
-            QTest::keyClick(first.get(), Qt::Key_C, Qt::AltModifier);
+            for (const Qt::Key key :
+                 {Qt::Key_C, Qt::Key_B, Qt::Key_A, Qt::Key_X, Qt::Key_Y, Qt::Key_PageUp, Qt::Key_PageUp})
+                QTest::keyClick(first.get(), key, Qt::AltModifier);
+            reviewed = detail(*first);
             go(*first, Qt::Key_3);
+            first->actions().colour_blind->trigger();
             first->close();
         }
+        QVERIFY(!reviewed.labels && !reviewed.trails && reviewed.rejected_detections && reviewed.tentative_tracks);
         const auto second = window();
         QVERIFY(second);
         QCOMPARE(second->workspaces().current(), WorkspaceKind::tune);
+        QVERIFY(detail(*second) == OverlayDetail{});
+        QVERIFY(second->actions().colour_blind->isChecked());
+        QVERIFY(second->overlays().palette() == PaletteKind::colour_blind);
         go(*second, Qt::Key_1);
+        QVERIFY(detail(*second) == reviewed);
+        QVERIFY(second->actions().tentative->isChecked() && !second->actions().labels->isChecked());
+        QVERIFY(second->overlays().palette() == PaletteKind::colour_blind);
         QVERIFY(!shown(*second, DockId::inspector));
         QVERIFY(second->overlays().isVisible(CornerLayer::kKind));
     }
@@ -144,12 +169,20 @@ class WorkspacesTest : public QObject {
         go(*window, Qt::Key_3);
         QTest::keyClick(window.get(), Qt::Key_V, Qt::AltModifier);
         QTest::keyClick(window.get(), Qt::Key_M, Qt::AltModifier);
+        QTest::keyClick(window.get(), Qt::Key_A, Qt::AltModifier);
+        QTest::keyClick(window.get(), Qt::Key_X, Qt::AltModifier);
         QVariantMap state = window->workspaces().state();
         QVariantMap shown = state[QStringLiteral("tune/overlays")].toMap();
         QCOMPARE(shown.size(), static_cast<qsizetype>(overlayTable().size()));
         QCOMPARE(shown.remove(QStringLiteral("clusters")), 1);
         state[QStringLiteral("tune/overlays")] = shown;
+        QVariantMap details = state[QStringLiteral("tune/overlay_detail")].toMap();
+        QCOMPARE(details.remove(QStringLiteral("trails")), 1);
+        details[QStringLiteral("vector_length")] = 1e9;  // nobody can draw that
+        state[QStringLiteral("tune/overlay_detail")] = details;
         window->workspaces().restore(state);
+        QVERIFY(detail(*window).trails && detail(*window).rejected_detections);
+        QCOMPARE(detail(*window).vector_length_factor, OverlayDetail{}.vector_length_factor);
         QVERIFY(window->overlays().isVisible(ClusterLayer::kKind));
         QVERIFY(!window->overlays().isVisible(VectorLayer::kKind));
     }
@@ -159,7 +192,9 @@ class WorkspacesTest : public QObject {
         QVERIFY(window);
         for (const DockId id : allDocks()) window->docks().dock(id)->hide();
         QTest::keyClick(window.get(), Qt::Key_T, Qt::AltModifier);
+        QTest::keyClick(window.get(), Qt::Key_B, Qt::AltModifier);
         window->workspaces().reset();
+        QVERIFY(detail(*window) == OverlayDetail{});
         QVERIFY(shown(*window, DockId::tracks) && shown(*window, DockId::inspector));
         QVERIFY(window->overlays().isVisible(TrackLayer::kKind));
     }

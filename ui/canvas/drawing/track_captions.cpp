@@ -12,7 +12,7 @@
 namespace eyrie::ui {
 
 bool isShown(const TrackState& state, const OverlayStyle& style) {
-    return (state.status != TrackStatus::tentative || style.tentative_tracks) && state.score >= style.min_score;
+    return (state.status != TrackStatus::tentative || style.detail.tentative_tracks) && state.score >= style.min_score;
 }
 
 bool isShown(const TrackState& state, const OverlayScene& scene) {

@@ -24,15 +24,26 @@ struct OverlayKind {
     auto operator<=>(const OverlayKind&) const = default;
 };
 
+/// The shortest and the longest that vectors can be drawn: as this many frames of motion.
+inline constexpr double kShortestVectors = 1;
+inline constexpr double kLongestVectors = 100;
+
+/// What overlays are drawn with: which of their details, and how long. Each workspace keeps its own.
+struct OverlayDetail {
+    bool labels = true;  ///< captions beside tracks, zones and errors
+    bool trails = true;
+    bool rejected_detections = false;
+    bool tentative_tracks = false;
+    double vector_length_factor = 5;  ///< a vector is drawn as long as this many frames of motion
+
+    bool operator==(const OverlayDetail&) const = default;
+};
+
 /// How overlays are drawn, whichever frame they belong to.
 struct OverlayStyle {
     OverlayColours colours = overlayColours(PaletteKind::thesis);
     PaletteKind palette = PaletteKind::thesis;
-    double vector_length_factor = 5;  ///< a vector is drawn as long as this many frames of motion
-    bool labels = true;
-    bool trails = true;
-    bool rejected_detections = false;
-    bool tentative_tracks = false;
+    OverlayDetail detail;
     double min_score = 0;     ///< tracks of a lower score are not shown
     double line_width = 1.6;  ///< logical px, whatever the zoom
 };

@@ -8,9 +8,9 @@
 namespace eyrie::ui {
 
 void TrackLayer::paint(QPainter& painter, const OverlayScene& scene) const {
-    if (scene.style.trails) paintTrails(painter, scene);
+    if (scene.style.detail.trails) paintTrails(painter, scene);
     paintBoxes(painter, scene);
-    if (scene.style.labels)
+    if (scene.style.detail.labels)
         paintTrackCaptions(painter, scene, [](const TrackState& state) {
             const QString id = QString::number(state.id);
             return state.origin == StateOrigin::by_hand ? QCoreApplication::translate("Overlay", "%1 by hand").arg(id)

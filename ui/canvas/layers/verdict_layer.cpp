@@ -138,7 +138,7 @@ void VerdictLayer::paint(QPainter& painter, const OverlayScene& scene) const {
                        {verdictColour(kind, scene.style.palette), edge, quiet ? kThin : kThick, style});
     }
     drawEdgedLines(painter, around, {QColor(255, 255, 255), edge, kThin});
-    if (scene.style.labels) paintTexts(painter, scene);
+    if (scene.style.detail.labels) paintTexts(painter, scene);
     paintLegend(painter, scene);
 }
 

@@ -62,7 +62,7 @@ void ZoneLayer::paint(QPainter& painter, const OverlayScene& scene) const {
         drawEdgedLines(painter, lines,
                        {zone.colour, scene.style.colours.edge, scene.style.line_width + (zone.selected ? 1.4 : 0.2)});
     }
-    if (!scene.style.labels) return;
+    if (!scene.style.detail.labels) return;
     // Vehicles are drawn on top: names that they cover could not be read.
     std::vector<QRectF> vehicles;
     for (const TrackState& track : scene.result.tracks) {

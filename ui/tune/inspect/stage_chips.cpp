@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 #include <optional>
-#include <string_view>
 
 #include "canvas/drawing/image_convert.h"
 
@@ -24,40 +23,62 @@ QString numberText(double value) {
 }
 
 /// The thesis' words for a step of a detector.
-QString layerTitle(const std::string& layer) {
-    struct Title {
-        std::string_view layer;
-        const char* title;
-    };
-    static constexpr Title kTitles[] = {
-        {"raw", QT_TRANSLATE_NOOP("StageChips", "Motion ROI")},
-        {"gradient", QT_TRANSLATE_NOOP("StageChips", "Gradient")},
-        {"lbp mask", QT_TRANSLATE_NOOP("StageChips", "LBP filter mask")},
-        {"quantile area", QT_TRANSLATE_NOOP("StageChips", "Quantile area")},
-        {"binary", QT_TRANSLATE_NOOP("StageChips", "Binary image")},
-        {"closed", QT_TRANSLATE_NOOP("StageChips", "Closing")},
-        {"components", QT_TRANSLATE_NOOP("StageChips", "Components")},
-        {"bright lines", QT_TRANSLATE_NOOP("StageChips", "Accumulator, bright")},
-        {"bright areas", QT_TRANSLATE_NOOP("StageChips", "Bright areas")},
-        {"dark lines", QT_TRANSLATE_NOOP("StageChips", "Accumulator, dark")},
-        {"dark areas", QT_TRANSLATE_NOOP("StageChips", "Dark areas")},
-        {"fused", QT_TRANSLATE_NOOP("StageChips", "Fused (max)")},
-        {"first suppression", QT_TRANSLATE_NOOP("StageChips", "First NMS")},
-        {"second suppression", QT_TRANSLATE_NOOP("StageChips", "Second NMS")},
-        {"smoothed", QT_TRANSLATE_NOOP("StageChips", "Smoothed")},
-        {"white tophat", QT_TRANSLATE_NOOP("StageChips", "White tophat")},
-        {"black tophat", QT_TRANSLATE_NOOP("StageChips", "Black tophat")},
-        {"regions", QT_TRANSLATE_NOOP("StageChips", "MSER regions")},
-        {"edges", QT_TRANSLATE_NOOP("StageChips", "Canny edges")},
-        {"corners", QT_TRANSLATE_NOOP("StageChips", "Harris corners")},
-        {"clustered", QT_TRANSLATE_NOOP("StageChips", "Clustered")},
-    };
-    for (const Title& title : kTitles)
-        if (title.layer == layer) return translated(title.title);
-    static const std::string kDecision = "decision ";
-    if (layer.starts_with(kDecision))
-        return translated("Decision %1").arg(QString::fromStdString(layer.substr(kDecision.size())));
-    return QString::fromStdString(layer);
+QString layerTitle(const DetectionTrace::Layer& layer) {
+    switch (layer.kind) {
+        case TraceLayer::raw:
+            return translated(QT_TRANSLATE_NOOP("StageChips", "Motion ROI"));
+        case TraceLayer::gradient:
+            return translated(QT_TRANSLATE_NOOP("StageChips", "Gradient"));
+        case TraceLayer::lbp_mask:
+            return translated(QT_TRANSLATE_NOOP("StageChips", "LBP filter mask"));
+        case TraceLayer::quantile_area:
+            return translated(QT_TRANSLATE_NOOP("StageChips", "Quantile area"));
+        case TraceLayer::binary:
+            return translated(QT_TRANSLATE_NOOP("StageChips", "Binary image"));
+        case TraceLayer::closed:
+            return translated(QT_TRANSLATE_NOOP("StageChips", "Closing"));
+        case TraceLayer::components:
+            return translated(QT_TRANSLATE_NOOP("StageChips", "Components"));
+        case TraceLayer::bright_lines:
+            return translated(QT_TRANSLATE_NOOP("StageChips", "Accumulator, bright"));
+        case TraceLayer::bright_areas:
+            return translated(QT_TRANSLATE_NOOP("StageChips", "Bright areas"));
+        case TraceLayer::dark_lines:
+            return translated(QT_TRANSLATE_NOOP("StageChips", "Accumulator, dark"));
+        case TraceLayer::dark_areas:
+            return translated(QT_TRANSLATE_NOOP("StageChips", "Dark areas"));
+        case TraceLayer::fused:
+            return translated(QT_TRANSLATE_NOOP("StageChips", "Fused (max)"));
+        case TraceLayer::decision:
+            return translated(QT_TRANSLATE_NOOP("StageChips", "Decision ×%1"))
+                .arg(QLocale().toString(layer.scale, 'f', 2));
+        case TraceLayer::first_suppression:
+            return translated(QT_TRANSLATE_NOOP("StageChips", "First NMS"));
+        case TraceLayer::second_suppression:
+            return translated(QT_TRANSLATE_NOOP("StageChips", "Second NMS"));
+        case TraceLayer::smoothed:
+            return translated(QT_TRANSLATE_NOOP("StageChips", "Smoothed"));
+        case TraceLayer::white_tophat:
+            return translated(QT_TRANSLATE_NOOP("StageChips", "White tophat"));
+        case TraceLayer::black_tophat:
+            return translated(QT_TRANSLATE_NOOP("StageChips", "Black tophat"));
+        case TraceLayer::regions:
+            return translated(QT_TRANSLATE_NOOP("StageChips", "MSER regions"));
+        case TraceLayer::edges:
+            return translated(QT_TRANSLATE_NOOP("StageChips", "Canny edges"));
+        case TraceLayer::corners:
+            return translated(QT_TRANSLATE_NOOP("StageChips", "Harris corners"));
+        case TraceLayer::clustered:
+            return translated(QT_TRANSLATE_NOOP("StageChips", "Clustered"));
+    }
+    return {};
+}
+
+/// Whether the values of a layer are grey values, those of the picture or made of them.
+bool isGrey(TraceLayer kind) {
+    return kind == TraceLayer::raw || kind == TraceLayer::smoothed || kind == TraceLayer::white_tophat ||
+           kind == TraceLayer::black_tophat || kind == TraceLayer::first_suppression ||
+           kind == TraceLayer::second_suppression;
 }
 
 /// Labels from 1 in colours that tell neighbours apart, 0 black.
@@ -120,35 +141,33 @@ QRectF rectangle(const cv::Rect2d& box) {
 }
 
 Chip layerChip(const DetectionTrace::Layer& layer) {
-    const QString title = layerTitle(layer.name);
+    const QString title = layerTitle(layer);
     Chip chip;
     if (layer.image.type() == CV_32FC1) {
         chip = realChip(title, layer.image);
     } else {
         chip = greyChip(title, layer.image);
-        if (layer.name == "components") chip.image = labelImage(layer.image);
-        const bool grey = layer.name == "raw" || layer.name == "smoothed" || layer.name.ends_with("tophat") ||
-                          layer.name.ends_with("suppression");
-        if (!grey) chip.unit.clear();
+        if (layer.kind == TraceLayer::components) chip.image = labelImage(layer.image);
+        if (!isGrey(layer.kind)) chip.unit.clear();
     }
     for (const cv::Rect2d& box : layer.boxes) chip.boxes.push_back(rectangle(box));
     if (!layer.boxes.empty())
         chip.note = layer.boxes.size() == 1 ? translated("1 box") : translated("%1 boxes").arg(layer.boxes.size());
-    if (layer.name.starts_with("decision") && cv::countNonZero(layer.image) == 0)
+    if (layer.kind == TraceLayer::decision && cv::countNonZero(layer.image) == 0)
         chip.note = translated("all given up early");
     return chip;
 }
 
-const cv::Mat* layerNamed(const DetectionTrace& trace, const char* name) {
+const cv::Mat* imageOf(const DetectionTrace& trace, TraceLayer kind) {
     for (const auto& layer : trace.layers)
-        if (layer.name == name) return &layer.image;
+        if (layer.kind == kind) return &layer.image;
     return nullptr;
 }
 
 /// The gradients that the quantile was taken of, and the quantile.
 std::optional<Chip> quantileChip(const DetectionTrace& trace) {
-    const cv::Mat* gradient = layerNamed(trace, "gradient");
-    const cv::Mat* area = layerNamed(trace, "quantile area");
+    const cv::Mat* gradient = imageOf(trace, TraceLayer::gradient);
+    const cv::Mat* area = imageOf(trace, TraceLayer::quantile_area);
     if (gradient == nullptr || area == nullptr || gradient->empty()) return std::nullopt;
     Chip chip;
     chip.title = translated("Histogram");
@@ -165,7 +184,7 @@ std::optional<Chip> quantileChip(const DetectionTrace& trace) {
             ++histogram.counts[static_cast<std::size_t>(
                 std::clamp(static_cast<int>(share * kHistogramBins), 0, kHistogramBins - 1))];
         }
-    const cv::Mat* binary = layerNamed(trace, "binary");
+    const cv::Mat* binary = imageOf(trace, TraceLayer::binary);
     if (binary != nullptr && cv::countNonZero(*binary) > 0) {
         double threshold = 0;
         cv::minMaxLoc(*gradient, &threshold, nullptr, nullptr, nullptr, *binary);
@@ -246,11 +265,11 @@ std::vector<ChipCard> stageChips(const ReplayView& view, std::size_t trace) {
     for (const auto& layer : traced.trace.layers) {
         if (layer.image.empty()) continue;
         Chip chip = layerChip(layer);
-        if (stacked && layer.name == "raw") {
+        if (stacked && layer.kind == TraceLayer::raw) {
             chip.title = translated("Stacked image");
             chip.note = translated("%1 layers").arg(traced.roi.stack_layers);
         }
-        if (layer.name == "binary")
+        if (layer.kind == TraceLayer::binary)
             if (auto histogram = quantileChip(traced.trace)) cards.push_back(card(std::move(*histogram)));
         cards.push_back(card(std::move(chip)));
     }

@@ -196,7 +196,7 @@ void SweepForm::suggestValues(const Axis& axis) {
 void SweepForm::refresh() {
     if (axes_.size() < 2) return;
     double points = 1;
-    bool complete = !parameterOf(axes_[0]) ? false : true;
+    bool complete = parameterOf(axes_[0]) != nullptr;
     for (const Axis& axis : axes_) {
         const Parameter* parameter = parameterOf(axis);
         const QString name = axis.name->currentText().trimmed();

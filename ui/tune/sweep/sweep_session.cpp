@@ -187,7 +187,7 @@ void SweepSession::work(const Job& job, const BackgroundTask& task) {
             check(plan);
         }
         ProjectFile file = ProjectFile::open(job.project);
-        const int id = beginSweep(file, plan, "", true);
+        const int id = beginSweep(file, plan, "", SweepFound::resumed);
         const auto held = lockSweep(file, id);
         auto growing = std::make_shared<SweepTable>(readSweep(file, id));
         std::vector<int> positions = workOrder(plan);

@@ -13,6 +13,7 @@
 #include <QVBoxLayout>
 
 #include "widgets/charts/sweep_chart.h"
+#include "widgets/display_text.h"
 #include "widgets/wiring.h"
 
 namespace eyrie::ui {
@@ -155,7 +156,7 @@ QWidget* TrainingDialog::buildSettings() {
     bindCommands(this, {{add,
                          [this] {
                              for (const QString& file : QFileDialog::getOpenFileNames(
-                                      this, tr("Add projects"), {}, tr("Eyrie projects (*.eyrie);;All files (*)")))
+                                      this, tr("Add projects"), {}, projectFilter() + tr(";;All files (*)")))
                                  addProject(file);
                          }},
                         {remove,

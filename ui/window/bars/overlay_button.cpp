@@ -35,11 +35,11 @@ void OverlayButton::buildMenu() {
     auto* layout = new QHBoxLayout(row);
     layout->setContentsMargins(28, 2, 8, 2);
     length_ = new QDoubleSpinBox(row);
-    length_->setRange(1, 100);
+    length_->setRange(kShortestVectors, kLongestVectors);
     length_->setDecimals(1);
     length_->setSuffix(tr(" frames"));
     length_->setToolTip(tr("A motion vector is drawn as long as the corner moves in this many frames"));
-    length_->setValue(overlays_.style().vector_length_factor);
+    length_->setValue(overlays_.style().detail.vector_length_factor);
     layout->addWidget(new QLabel(tr("Vector length"), row));
     layout->addWidget(length_, 1);
     onEdited(
@@ -53,7 +53,7 @@ void OverlayButton::buildMenu() {
 
 void OverlayButton::refresh() {
     const QSignalBlocker blocker(length_);
-    length_->setValue(overlays_.style().vector_length_factor);
+    length_->setValue(overlays_.style().detail.vector_length_factor);
     // Whoever sees no tracks should know that they are hidden.
     setChecked(overlays_.hidden());
     for (const OverlayRow& row : overlayTable())

@@ -124,17 +124,16 @@ void EvaluationDocks::showErrorsAlone() {
         giveOverlaysBack();
     } else if (!other_overlays_) {
         other_overlays_ = overlays_.profile();
-        OverlayProfile errors;
-        errors.set(VerdictLayer::kKind, true);
-        overlays_.setProfile(errors);
+        overlays_.setProfile({{VerdictLayer::kKind}, other_overlays_->detail});
     }
 }
 
 void EvaluationDocks::giveOverlaysBack() {
     if (!other_overlays_) return;
     OverlayProfile before = *std::exchange(other_overlays_, std::nullopt);
-    // Switched off meanwhile, verdicts stay so.
+    // Switched off meanwhile, verdicts stay so, and so does every detail.
     if (!overlays_.isVisible(VerdictLayer::kKind)) before.set(VerdictLayer::kKind, false);
+    before.detail = overlays_.profile().detail;
     overlays_.setProfile(before);
 }
 

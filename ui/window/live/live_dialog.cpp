@@ -149,9 +149,8 @@ void LiveDialog::projectEdited() {
 
 void LiveDialog::chooseProject() {
     // Runs can be added to one that is there.
-    const QString path =
-        QFileDialog::getSaveFileName(this, tr("Project of the live source"), project_->text(),
-                                     tr("Eyrie projects (*.eyrie)"), nullptr, QFileDialog::DontConfirmOverwrite);
+    const QString path = QFileDialog::getSaveFileName(this, tr("Project of the live source"), project_->text(),
+                                                      projectFilter(), nullptr, QFileDialog::DontConfirmOverwrite);
     if (!path.isEmpty()) project_->setText(withEnding(path, kProjectEnding));
 }
 

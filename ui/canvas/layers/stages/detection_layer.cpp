@@ -12,7 +12,7 @@ void DetectionLayer::paint(QPainter& painter, const OverlayScene& scene) const {
         appendBox(is_kept ? kept : rejected, detection.box, scene.transform, scene.view);
     }
     const OverlayColours& colours = scene.style.colours;
-    if (scene.style.rejected_detections)
+    if (scene.style.detail.rejected_detections)
         drawEdgedLines(painter, rejected, {colours.rejected, QColor(0, 0, 0, 60), 1.2, Qt::DotLine});
     drawEdgedLines(painter, kept, {colours.detection, colours.edge, scene.style.line_width});
 }

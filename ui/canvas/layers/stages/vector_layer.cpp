@@ -10,7 +10,7 @@ constexpr double kScaleWithDots = 2;  ///< from this zoom on a dot marks where t
 
 void VectorLayer::paint(QPainter& painter, const OverlayScene& scene) const {
     const auto& vectors = scene.result.motion.motion_vectors;
-    const double factor = scene.style.vector_length_factor;
+    const double factor = scene.style.detail.vector_length_factor;
     QVector<QLineF> lines;
     QVector<QPointF> heads;
     QVector<QPointF> inferred;
