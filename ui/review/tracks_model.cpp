@@ -1,7 +1,10 @@
 #include "review/tracks_model.h"
 
+#include <QGuiApplication>
+
 #include "widgets/display_text.h"
 #include "widgets/tables/table_roles.h"
+#include "widgets/theme_colours.h"
 
 namespace eyrie::ui {
 
@@ -36,6 +39,8 @@ QVariant TracksModel::data(const QModelIndex& index, int role) const {
                 .arg(track->first_frame)
                 .arg(track->last_frame)
                 .arg(track->frames);
+        case Qt::ForegroundRole:
+            return isRejected(*track) ? QVariant(quietText(QGuiApplication::palette())) : QVariant();
         case Qt::TextAlignmentRole:
             if (index.column() == status_column || index.column() == class_column) return {};
             return QVariant(Qt::AlignRight | Qt::AlignVCenter);
@@ -123,8 +128,7 @@ QString TracksModel::helpOf(int column) const {
         case status_column:
             return tr(
                 "Confirmed: relied on. Tentative: too new to be relied on, and not part of the result. By hand, "
-                "joined, "
-                "split: what a person made of it");
+                "joined, split: what a person made of it. Rejected: left out of everything but this list");
         case score_column:
             return tr("Probability that the track is a moving vehicle, from 0 to 1");
         case class_column:
