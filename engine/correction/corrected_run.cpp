@@ -117,6 +117,17 @@ std::vector<TrackSummary> trackSummaries(const RunStore& store, int run_id, cons
     return summaries;
 }
 
+std::vector<TrackSummary> rejectedSummaries(const RunStore& store, int run_id, const CorrectedTracks& corrected) {
+    std::vector<TrackSummary> summaries;
+    if (corrected.rejected.empty()) return summaries;
+    const ClassRule rule = classRuleOf(store, run_id);
+    for (const auto& [id, track] : corrected.rejected) {
+        summaries.push_back(summaryOf(id, track, rule));
+        summaries.back().confirmed = false;
+    }
+    return summaries;
+}
+
 std::vector<TrackFrame> trackStates(const RunStore& store, int run_id, TrackId track,
                                     const CorrectedTracks& corrected) {
     if (const CorrectedTrack* known = corrected.track(track)) return known->states;

@@ -18,6 +18,8 @@ CorrectedTracks readCorrectedTracks(ProjectFile& project, const RunRecord& run);
 
 /// As RunStore::tracks(), ascending ids.
 std::vector<TrackSummary> trackSummaries(const RunStore& store, int run_id, const CorrectedTracks& corrected);
+/// Those that a person rejected, for lists that say so; confirmed ones no more, and part of nothing else here.
+std::vector<TrackSummary> rejectedSummaries(const RunStore& store, int run_id, const CorrectedTracks& corrected);
 /// As RunStore::trackStates().
 std::vector<TrackFrame> trackStates(const RunStore& store, int run_id, TrackId track, const CorrectedTracks& corrected);
 /// As RunStore::trackStatesUpTo().

@@ -64,17 +64,19 @@ class Workbench {
                 return join(correction);
             case CorrectionKind::split:
                 return split(correction);
+            case CorrectionKind::reject:
+                return reject(correction);
         }
         return CorrectionState::no_track;
     }
 
     CorrectedTracks take() {
         CorrectedTracks result;
-        for (auto& [id, track] : present_) {
-            if (track.corrections.empty()) continue;
-            std::sort(track.corrections.begin(), track.corrections.end());
-            result.tracks.emplace(id, std::move(track));
-        }
+        std::erase_if(present_, [](const auto& each) { return each.second.corrections.empty(); });
+        for (auto* made : {&present_, &rejected_})
+            for (auto& [id, track] : *made) std::sort(track.corrections.begin(), track.corrections.end());
+        result.tracks = std::move(present_);
+        result.rejected = std::move(rejected_);
         result.replaced = std::move(replaced_);
         result.covering = std::move(covering_);
         return result;
@@ -111,26 +113,36 @@ class Workbench {
         return best;
     }
 
+    /// How many of the boxes any track lies on, and how many each does.
+    struct Met {
+        int boxes = 0;
+        std::map<TrackId, int> by_track;
+    };
+    Met met(const std::vector<Sighting>& compared) const {
+        Met found;
+        for (const Sighting& each : compared) {
+            bool any = false;
+            for (const auto& [id, track] : present_) {
+                const TrackState* state = stateIn(track.states, each.frame);
+                if (state == nullptr || !likenessOf(each.box, state->box)) continue;
+                ++found.by_track[id];
+                any = true;
+            }
+            found.boxes += any ? 1 : 0;
+        }
+        return found;
+    }
+
     CorrectionState add(const TrackCorrection& correction) {
         const std::vector<Sighting> seen = ofRun(correction.track);
         if (seen.empty()) return CorrectionState::not_searched;
         const std::vector<Sighting> compared = comparedOf(seen);
-        std::map<TrackId, int> on_track;
-        int covered = 0;
-        for (const Sighting& each : compared) {
-            bool met = false;
-            for (const auto& [id, track] : present_) {
-                const TrackState* state = stateIn(track.states, each.frame);
-                if (state == nullptr || !likenessOf(each.box, state->box)) continue;
-                ++on_track[id];
-                met = true;
-            }
-            covered += met ? 1 : 0;
-        }
-        if (covered >= kMostOfALife * static_cast<double>(compared.size())) {
-            covering_[correction.id] = std::max_element(on_track.begin(), on_track.end(), [](auto& a, auto& b) {
-                                           return a.second < b.second;
-                                       })->first;
+        const Met there = met(compared);
+        if (there.boxes >= kMostOfALife * static_cast<double>(compared.size())) {
+            covering_[correction.id] =
+                std::max_element(there.by_track.begin(), there.by_track.end(), [](auto& a, auto& b) {
+                    return a.second < b.second;
+                })->first;
             return CorrectionState::covered;
         }
         keep(run_.last_id + correction.id, {CorrectionKind::add, {correction.id}, statesByHand(seen, camera_)});
@@ -183,6 +195,32 @@ class Workbench {
         return CorrectionState::applied;
     }
 
+    CorrectionState reject(const TrackCorrection& correction) {
+        const std::vector<Sighting> seen = comparedOf(ofRun(correction.track));
+        if (seen.empty()) return CorrectionState::not_searched;
+        const TrackId id = match(seen);
+        // In pieces it is there still.
+        if (id == 0)
+            return 2 * static_cast<std::size_t>(met(seen).boxes) < seen.size() ? CorrectionState::absent
+                                                                               : CorrectionState::no_track;
+        const States& states = present_[id].states;
+        if (!livesMostly(sightingsOf(states.begin(), states.end()), seen.front().frame, seen.back().frame))
+            return CorrectionState::no_track;
+        CorrectedTrack track = present_[id];
+        drop(id);
+        track.kind = CorrectionKind::reject;
+        track.corrections.push_back(correction.id);
+        rejected_[id] = std::move(track);
+        return CorrectionState::applied;
+    }
+
+    /// Whether half of the boxes or more are of these frames.
+    static bool livesMostly(const std::vector<Sighting>& seen, FrameIndex first, FrameIndex last) {
+        const auto within = std::count_if(
+            seen.begin(), seen.end(), [&](const Sighting& each) { return each.frame >= first && each.frame <= last; });
+        return 2 * static_cast<std::size_t>(within) >= seen.size();
+    }
+
     /// Whether two tracks are in different places in most of the frames that they share.
     static bool areApart(const States& one, const States& other) {
         int shared = 0, apart = 0;
@@ -209,6 +247,7 @@ class Workbench {
     const TracksToCorrect& run_;
     const CameraMotion& camera_;
     std::map<TrackId, CorrectedTrack> present_;  ///< those of the run as they are have no corrections
+    std::map<TrackId, CorrectedTrack> rejected_;
     std::set<TrackId> replaced_;
     std::map<int, TrackId> covering_;
 };
@@ -216,14 +255,17 @@ class Workbench {
 }  // namespace
 
 const char* nameOf(CorrectionState state) {
-    constexpr std::array<const char*, 5> kNames = {"applied", "covered by the run's own", "no such track near",
+    constexpr std::array<const char*, 6> kNames = {"applied",
+                                                   "covered by the run's own",
+                                                   "no such track near",
                                                    "the tracks are in different places at one time",
-                                                   "not searched by this run"};
+                                                   "not searched by this run",
+                                                   "not found by this run"};
     return kNames.at(static_cast<std::size_t>(state));
 }
 
 bool isLeft(CorrectionState state) {
-    return state != CorrectionState::applied && state != CorrectionState::covered;
+    return state != CorrectionState::applied && state != CorrectionState::covered && state != CorrectionState::absent;
 }
 
 std::vector<Sighting> comparedOf(const std::vector<Sighting>& sightings) {
@@ -255,6 +297,11 @@ const CorrectedTrack* CorrectedTracks::track(TrackId id) const {
     return found == tracks.end() ? nullptr : &found->second;
 }
 
+const CorrectedTrack* CorrectedTracks::touched(TrackId id) const {
+    const auto found = rejected.find(id);
+    return found == rejected.end() ? track(id) : &found->second;
+}
+
 CorrectedTracks correctTracks(const TracksToCorrect& run, const std::map<int, TrackCorrection>& corrections,
                               const CameraMotion& camera) {
     Workbench bench(run, camera);
@@ -280,6 +327,7 @@ std::string correctionsInWords(const CorrectedTracks& corrected) {
     add(CorrectionKind::add, "track added", "tracks added");
     add(CorrectionKind::join, "join", "joins");
     add(CorrectionKind::split, "split", "splits");
+    add(CorrectionKind::reject, "track rejected", "tracks rejected");
     const auto left = std::count_if(corrected.states.begin(), corrected.states.end(),
                                     [](const auto& each) { return isLeft(each.second); });
     if (left > 0)
@@ -319,6 +367,14 @@ TrackCorrection splitOf(const std::vector<TrackFrame>& track, FrameIndex frame) 
     correction.frame = frame;
     correction.track = sightingsOf(track.begin(), cut);
     for (const Sighting& each : sightingsOf(cut, track.end())) correction.track.push_back(each);
+    return correction;
+}
+
+TrackCorrection rejectionOf(const std::vector<TrackFrame>& track) {
+    TrackCorrection correction;
+    correction.kind = CorrectionKind::reject;
+    correction.frame = track.front().frame;
+    correction.track = sightingsOf(track.begin(), track.end());
     return correction;
 }
 

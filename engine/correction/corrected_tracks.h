@@ -10,17 +10,18 @@
 #include "core/review/track_correction.h"
 #include "store/runs/run_store.h"
 
-/// The tracks of a run as people corrected them: added, joined, split. What operators are shown and given; what is
-/// measured against ground truth are the run's own.
+/// The tracks of a run as people corrected them: added, joined, split, rejected. What operators are shown and given;
+/// what is measured against ground truth are the run's own.
 namespace eyrie {
 
 /// What became of a correction in a run.
 enum class CorrectionState {
     applied,
-    covered,      ///< the run has it so by itself
-    no_track,     ///< no track of the run is where it was made
-    apart,        ///< join: the two are in different places at one time
-    not_searched  ///< the run does not hold these frames
+    covered,       ///< the run has it so by itself
+    no_track,      ///< no track of the run is where it was made
+    apart,         ///< join: the two are in different places at one time
+    not_searched,  ///< the run does not hold these frames
+    absent         ///< reject: the run has no such track, as the person wants it
 };
 /// For people: "no such track near".
 const char* nameOf(CorrectionState state);
@@ -37,15 +38,18 @@ struct CorrectedTrack {
 /// What a run's tracks become.
 struct CorrectedTracks {
     std::map<TrackId, CorrectedTrack> tracks;  ///< instead of those replaced, or new; ids may be those of replaced ones
-    std::set<TrackId> replaced;                ///< tracks of the run that are no more what they were
-    std::map<int, CorrectionState> states;     ///< of every correction
-    std::map<CorrectionKind, int> applied;     ///< how many of each kind were
-    std::map<int, TrackId> covering;           ///< of covered ones: a track of the run that is there instead
+    std::map<TrackId, CorrectedTrack> rejected;  ///< left out of all results; lists tell that they were
+    std::set<TrackId> replaced;                  ///< tracks of the run that are no more what they were, or rejected
+    std::map<int, CorrectionState> states;       ///< of every correction
+    std::map<CorrectionKind, int> applied;       ///< how many of each kind were
+    std::map<int, TrackId> covering;             ///< of covered ones: a track of the run that is there instead
 
-    bool empty() const { return tracks.empty() && replaced.empty(); }
+    bool empty() const { return tracks.empty() && rejected.empty() && replaced.empty(); }
     /// The states of a frame, given those of the run; ascending ids.
     std::vector<TrackState> in(FrameIndex frame, std::vector<TrackState> of_run) const;
     const CorrectedTrack* track(TrackId id) const;
+    /// The same, also of a rejected one: what a person did to a track that a list shows. Null: nothing.
+    const CorrectedTrack* touched(TrackId id) const;
 };
 
 /// What corrections are applied to.
@@ -61,12 +65,14 @@ struct TracksToCorrect {
 /// times: the one that lies best on at least half of the boxes that a correction holds of its track. A join keeps the
 /// id of the track that begins first; where both have a box, what was seen counts before what was predicted, then the
 /// one that begins first; gaps of up to ten seconds are filled over the ground as far as `camera` connects the frames.
-/// A split leaves the id to the earlier part. An added track of which most lies on tracks is covered by them. The
-/// result depends on nothing but the arguments.
+/// A split leaves the id to the earlier part. An added track of which most lies on tracks is covered by them. A
+/// rejected track is one that lives for the most part while the one that was rejected did: a longer one may be of a
+/// vehicle. The result depends on nothing but the arguments.
 CorrectedTracks correctTracks(const TracksToCorrect& run, const std::map<int, TrackCorrection>& corrections,
                               const CameraMotion& camera);
 
-/// "2 tracks added, 1 join, 1 split; 1 correction could not be carried over"; empty where nobody corrected anything.
+/// "2 tracks added, 1 join, 1 split, 3 tracks rejected; 1 correction could not be carried over"; empty where nobody
+/// corrected anything.
 std::string correctionsInWords(const CorrectedTracks& corrected);
 
 /// The corrections that make it so, without number and person. Tracks as they are shown when it is made.
@@ -74,6 +80,7 @@ TrackCorrection additionOf(std::vector<Sighting> boxes, FrameIndex drawn);
 TrackCorrection joinOf(const std::vector<TrackFrame>& one, const std::vector<TrackFrame>& other);
 /// `frame` is the first of the later part. Throws Error(parameter) where it leaves nothing of the track.
 TrackCorrection splitOf(const std::vector<TrackFrame>& track, FrameIndex frame);
+TrackCorrection rejectionOf(const std::vector<TrackFrame>& track);
 
 /// Those of many boxes by which tracks are compared with what a correction holds: a few dozen, evenly.
 std::vector<Sighting> comparedOf(const std::vector<Sighting>& sightings);

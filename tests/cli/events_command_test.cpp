@@ -342,6 +342,47 @@ TEST_F(EventsCommand, TracksAreThoseThatPeopleCorrectedUnlessTheRunsOwnAreAskedF
     EXPECT_THAT(written({"--uncorrected"}), AllOf(Not(HasSubstr(",by hand\n")), HasSubstr(",detected\n")));
 }
 
+TEST_F(EventsCommand, RejectedTracksAreLeftOutAndListedAmongWhatPeopleCorrected) {
+    writeTraffic();
+    {
+        ProjectFile project = ProjectFile::open(folder_ / "traffic.eyrie");
+        ReviewStore store(project, 1);
+        TrackCorrection rejection;
+        rejection.id = store.newCorrectionId();
+        rejection.kind = CorrectionKind::reject;
+        rejection.track = {{0, {{300, 182}, 22, 9, CV_PI}}, {99, {{102, 182}, 22, 9, CV_PI}}};
+        rejection.person = "Ada";
+        ReviewEdit edit{"Reject", {}, {}};
+        edit.corrections = {{std::nullopt, rejection}};
+        store.apply(edit);
+    }
+    const auto result = call({"--project", "@traffic.eyrie"});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_THAT(result.output,
+                AllOf(HasSubstr("of 2 tracks"),
+                      HasSubstr("tracks as people corrected them: 1 track rejected:\n"
+                                "rejected          frame 0       tracks 2                applied  Ada")));
+    EXPECT_THAT(call({"--project", "@traffic.eyrie", "--uncorrected"}).output,
+                AllOf(HasSubstr("of 3 tracks"), Not(HasSubstr("rejected"))));
+    const auto exported = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words{test::programPath("eyrie-cli"),
+                                       "export",
+                                       "--project",
+                                       at("traffic.eyrie"),
+                                       "--format",
+                                       "tracks-csv",
+                                       "--out",
+                                       at("t.csv"),
+                                       "--force"};
+        words.insert(words.end(), more.begin(), more.end());
+        const auto written = test::runProcess(words);
+        EXPECT_EQ(written.exit_code, 0) << written.errors;
+        return written.output + textOf("t.csv");
+    };
+    EXPECT_THAT(exported({}), AllOf(HasSubstr("\n1,0,"), Not(HasSubstr("\n2,0,")), HasSubstr("1 track rejected")));
+    EXPECT_THAT(exported({"--uncorrected"}), AllOf(HasSubstr("\n1,0,"), HasSubstr("\n2,0,")));
+}
+
 TEST_F(EventsCommand, TracksLikeOneAreListedByLikeness) {
     writeTraffic();
     const auto result = call({"--project", "@traffic.eyrie", "--like", "1", "--csv", "@like.csv"});

@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <map>
+#include <set>
+
 #include "correction/driven_states.h"
 #include "store/review/review_store.h"
 #include "support/run_rows.h"
@@ -118,6 +121,66 @@ TEST_F(CorrectedRun, WhatATrackOfOtherFramesIsAddedToIsThereToo) {
         if (state.origin == StateOrigin::by_hand) frames.push_back(frame);
     });
     EXPECT_THAT(frames, ElementsAre(55, 56, 57, 58));
+}
+
+TEST_F(CorrectedRun, ARejectedTrackIsInNothingButItsOwnList) {
+    const auto rows = test::rowsOf(path_, run_.id);
+    const RunStore store(*project_);
+    correct(rejectionOf(late_));
+    const CorrectedTracks corrected = readCorrectedTracks(*project_, run_);
+    const auto idsOf = [](const std::vector<TrackSummary>& summaries) {
+        std::vector<TrackId> ids;
+        for (const TrackSummary& each : summaries) ids.push_back(each.id);
+        return ids;
+    };
+    EXPECT_THAT(idsOf(trackSummaries(store, run_.id, corrected)), ElementsAre(3, 9));
+    const std::vector<TrackSummary> rejected = rejectedSummaries(store, run_.id, corrected);
+    ASSERT_THAT(idsOf(rejected), ElementsAre(7));
+    EXPECT_EQ(rejected[0].corrected, CorrectionKind::reject);
+    EXPECT_FALSE(rejected[0].confirmed);
+    EXPECT_EQ(rejected[0].first_frame, 25);
+    EXPECT_EQ(rejected[0].last_frame, 50);
+    EXPECT_TRUE(trackStates(store, run_.id, 7, corrected).empty());
+    EXPECT_EQ(trackStatesUpTo(store, run_.id, 30, 10, corrected).size(), 10U) << "that of 9 alone";
+    std::map<TrackId, int> visited;
+    visitTrackStates(store, run_.id, corrected, [&](FrameIndex, const TrackState& state) { ++visited[state.id]; });
+    EXPECT_EQ(visited, (std::map<TrackId, int>{{3, 21}, {9, 60}}));
+    int boxes = 0;
+    visitTrackBoxes(store, run_.id, corrected, [&](FrameIndex, const BoxRecord&) { ++boxes; });
+    EXPECT_EQ(boxes, 81);
+    EXPECT_EQ(test::rowsOf(path_, run_.id), rows) << "the run keeps it";
+    EXPECT_EQ(trackSummaries(store, run_.id, {}).size(), 3U);
+    EXPECT_TRUE(rejectedSummaries(store, run_.id, {}).empty());
+    ReviewStore(*project_, run_.sequence.id).undo();
+    EXPECT_TRUE(readCorrectedTracks(*project_, run_).empty());
+}
+
+TEST_F(CorrectedRun, AnAddedTrackThatIsRejectedLeavesTheRunAsItIs) {
+    const RunStore store(*project_);
+    correct(additionOf(drivenSightings(5, 58, 10, 20), 30));
+    const TrackId added = 10;  // 9 is the highest of the run, 1 the number of the correction
+    correct(rejectionOf(trackStates(store, run_.id, added, readCorrectedTracks(*project_, run_))));
+    const CorrectedTracks corrected = readCorrectedTracks(*project_, run_);
+    EXPECT_EQ(trackSummaries(store, run_.id, corrected).size(), 3U);
+    ASSERT_EQ(rejectedSummaries(store, run_.id, corrected).size(), 1U);
+    EXPECT_EQ(rejectedSummaries(store, run_.id, corrected)[0].id, added);
+    std::set<TrackId> visited;
+    visitTrackStates(store, run_.id, corrected, [&](FrameIndex, const TrackState& state) { visited.insert(state.id); });
+    EXPECT_THAT(visited, ElementsAre(3, 7, 9));
+}
+
+TEST_F(CorrectedRun, ANewRunCarriesRejectionsOver) {
+    correct(rejectionOf(early_));
+    const RunRecord second = test::writeRun(path_, kFrames, [&](int frame, FrameResult& result) {
+        for (const auto& states : {drivenStates(2, 0, 22, 11), drivenStates(4, 0, 59, 10, 90)})
+            for (const TrackFrame& each : states)
+                if (each.frame == frame) result.tracks.push_back(each.state);
+    });
+    const CorrectedTracks carried = readCorrectedTracks(*project_, second);
+    EXPECT_EQ(carried.states.at(1), CorrectionState::applied);
+    EXPECT_THAT(carried.replaced, ElementsAre(2));
+    const RunRecord third = test::writeRun(path_, kFrames, [](int, FrameResult&) {});
+    EXPECT_EQ(readCorrectedTracks(*project_, third).states.at(1), CorrectionState::absent);
 }
 
 TEST_F(CorrectedRun, ANewRunOfTheVideoCarriesThemOver) {

@@ -281,6 +281,79 @@ TEST(CorrectedTracks, AnAddedTrackThatTheRunHasOverMostOfItsLifeIsCovered) {
     EXPECT_EQ(beside.states.at(1), CorrectionState::applied) << "the next lane is another vehicle";
 }
 
+// ---- reject ---------------------------------------------------------------------------------------------------------
+
+TEST(CorrectedTracks, ARejectedTrackIsLeftOutButStillKnown) {
+    const auto shadow = drivenStates(3, 5, 40, 10), vehicle = drivenStates(7, 0, 60, 10, 80);
+    const TrackCorrection rejection = rejectionOf(shadow);
+    EXPECT_EQ(rejection.kind, CorrectionKind::reject);
+    EXPECT_EQ(rejection.frame, 5);
+    const CorrectedTracks result = corrected(runOf({{3, shadow}, {7, vehicle}}), {rejection});
+    EXPECT_EQ(result.states.at(1), CorrectionState::applied);
+    EXPECT_TRUE(result.tracks.empty());
+    EXPECT_THAT(result.replaced, ElementsAre(3));
+    ASSERT_EQ(result.rejected.size(), 1U);
+    EXPECT_EQ(result.rejected.at(3).kind, CorrectionKind::reject);
+    EXPECT_EQ(result.rejected.at(3).states.size(), 36U);
+    EXPECT_FALSE(result.empty());
+    EXPECT_EQ(result.track(3), nullptr);
+    EXPECT_EQ(result.touched(3), &result.rejected.at(3));
+    EXPECT_EQ(result.touched(7), nullptr);
+    const auto in_frame = result.in(10, {shadow[5].state, vehicle[10].state});
+    ASSERT_EQ(in_frame.size(), 1U);
+    EXPECT_EQ(in_frame[0].id, 7);
+    EXPECT_EQ(correctionsInWords(result), "1 track rejected");
+}
+
+TEST(CorrectedTracks, WhatPeopleMadeIsRejectedAndComesBackAsTheyMadeIt) {
+    const auto early = drivenStates(3, 0, 20, 10), late = drivenStates(7, 25, 50, 10);
+    const TracksToCorrect run = runOf({{3, early}, {7, late}});
+    const auto join = joinOf(early, late);
+    const auto rejection = rejectionOf(corrected(run, {join}).track(3)->states);
+    const CorrectedTracks result = corrected(run, {join, rejection});
+    EXPECT_TRUE(result.tracks.empty());
+    EXPECT_THAT(result.replaced, ElementsAre(3, 7));
+    EXPECT_THAT(result.rejected.at(3).corrections, ElementsAre(1, 2)) << "the last is taken back first";
+    expectWhole(result.rejected.at(3), 3, 0, 50);
+
+    const auto add = additionOf(drivenSightings(10, 60, 10, 20), 30);
+    const CorrectedTracks added = corrected(run, {add});
+    const CorrectedTracks without = corrected(run, {add, rejectionOf(added.track(21)->states)});
+    EXPECT_TRUE(without.tracks.empty());
+    EXPECT_TRUE(without.replaced.empty());
+    EXPECT_THAT(without.rejected.at(21).corrections, ElementsAre(1, 2));
+    EXPECT_EQ(without.applied.at(CorrectionKind::reject), 1);
+
+    const auto split = splitOf(late, 40);
+    const CorrectedTracks cut = corrected(run, {split});
+    const CorrectedTracks half = corrected(run, {split, rejectionOf(cut.track(21)->states)});
+    ASSERT_EQ(half.tracks.size(), 1U);
+    expectWhole(*half.track(7), 7, 25, 39);
+    expectWhole(half.rejected.at(21), 21, 40, 50);
+    EXPECT_THAT(half.replaced, ElementsAre(7));
+}
+
+TEST(CorrectedTracks, OfTwoOnOneVehicleTheOneThatIsMeantIsRejected) {
+    const auto one = drivenStates(3, 0, 30, 10), twin = drivenStates(7, 0, 30, 12);
+    const TracksToCorrect run = runOf({{3, one}, {7, twin}});
+    EXPECT_THAT(corrected(run, {rejectionOf(one)}).replaced, ElementsAre(3));
+    EXPECT_THAT(corrected(run, {rejectionOf(twin)}).replaced, ElementsAre(7));
+    const CorrectedTracks both = corrected(run, {rejectionOf(twin), rejectionOf(one)});
+    EXPECT_THAT(both.replaced, ElementsAre(3, 7));
+    EXPECT_THAT(both.rejected.at(7).corrections, ElementsAre(1));
+    EXPECT_THAT(both.rejected.at(3).corrections, ElementsAre(2));
+    EXPECT_EQ(correctionsInWords(both), "2 tracks rejected");
+}
+
+TEST(CorrectedTracks, ATrackThatWasHardlySeenIsRejectedByWhatWasSeen) {
+    auto shadow = drivenStates(3, 0, 40, 10);
+    for (TrackFrame& each : shadow)
+        if (each.frame > 4) each.state.origin = StateOrigin::predicted;
+    const TrackCorrection rejection = rejectionOf(shadow);
+    EXPECT_EQ(rejection.track.size(), 5U);
+    EXPECT_EQ(corrected(runOf({{3, shadow}}), {rejection}).states.at(1), CorrectionState::applied);
+}
+
 // ---- another run of the same video ----------------------------------------------------------------------------------
 
 TEST(CarriedCorrections, FindTheirTracksInAnotherRunByPlaceAndTime) {
@@ -334,6 +407,54 @@ TEST(CarriedCorrections, WhatHasNoTrackOrNoFramesIsSaid) {
     half.last_frame = 9;
     EXPECT_EQ(corrected(half, made).states.at(3), CorrectionState::not_searched);
     for (const auto state : {CorrectionState::no_track, CorrectionState::not_searched}) EXPECT_TRUE(isLeft(state));
+}
+
+TEST(CarriedCorrections, ARejectionFindsItsTrackAgainOrSaysThatItDidNot) {
+    const auto shadow = drivenStates(3, 0, 60, 10);
+    const auto vehicle = drivenStates(9, 0, 99, 10, 80);
+    const auto of = [&](std::vector<std::pair<FrameIndex, FrameIndex>> lives) {
+        TracksToCorrect run = runOf({{9, vehicle}});
+        TrackId id = 11;
+        for (const auto& [first, last] : lives) {
+            run.tracks[id] = drivenStates(id, first, last, 11, 51);
+            ++id;
+        }
+        return corrected(run, {rejectionOf(shadow)});
+    };
+    const CorrectedTracks again = of({{3, 57}});
+    EXPECT_EQ(again.states.at(1), CorrectionState::applied);
+    EXPECT_THAT(again.replaced, ElementsAre(11));
+    EXPECT_EQ(again.rejected.at(11).states.size(), 55U);
+    // What is not found any more needs no rejection.
+    const CorrectedTracks gone = of({});
+    EXPECT_EQ(gone.states.at(1), CorrectionState::absent);
+    EXPECT_FALSE(isLeft(CorrectionState::absent));
+    EXPECT_TRUE(gone.empty());
+    EXPECT_EQ(correctionsInWords(gone), "");
+    // In pieces it is there still.
+    const CorrectedTracks pieces = of({{0, 19}, {22, 40}, {45, 60}});
+    EXPECT_EQ(pieces.states.at(1), CorrectionState::no_track);
+    EXPECT_TRUE(pieces.empty());
+    EXPECT_EQ(correctionsInWords(pieces), "1 correction could not be carried over");
+}
+
+TEST(CarriedCorrections, ATrackThatLivesForLongerThanTheRejectedOneIsLeftToThePerson) {
+    const TrackCorrection rejection = rejectionOf(drivenStates(3, 20, 30, 10));
+    const auto longer = corrected(runOf({{5, drivenStates(5, 0, 99, 10)}}), {rejection});
+    EXPECT_EQ(longer.states.at(1), CorrectionState::no_track);
+    EXPECT_TRUE(longer.empty());
+    const auto twice = corrected(runOf({{5, drivenStates(5, 15, 35, 10)}}), {rejection});
+    EXPECT_EQ(twice.states.at(1), CorrectionState::applied);
+    TracksToCorrect before = runOf({{5, drivenStates(5, 0, 9, 10)}});
+    before.last_frame = 9;
+    EXPECT_EQ(corrected(before, {rejection}).states.at(1), CorrectionState::not_searched);
+}
+
+TEST(CarriedCorrections, AVehicleThatPassesWhereATrackWasRejectedStays) {
+    const TrackCorrection rejection = rejectionOf(drivenStates(3, 0, 60, 100, 50, 0));
+    const auto passing = corrected(runOf({{5, drivenStates(5, 0, 99, 0)}}), {rejection});
+    EXPECT_EQ(passing.states.at(1), CorrectionState::absent);
+    EXPECT_TRUE(passing.empty());
 }
 
 TEST(CarriedCorrections, OfTwoThatAreNearTheNearerIsMeant) {

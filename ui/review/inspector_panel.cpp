@@ -40,11 +40,12 @@ TrackClass classOfTrack(const ProjectSession& session, TrackId track) {
     return summary != nullptr ? summary->track_class : TrackClass::unknown;
 }
 
-/// The score of a track and what became of it: "0.12, below 0.2: left out of the result".
+/// The score of a track and what became of it: "0.12, below 0.2: left out of the result", "0.8, rejected by a person".
 QString scoreOfTrack(const ProjectSession& session, TrackId track) {
     const TrackSummary* summary = session.trackSummary(track);
     if (summary == nullptr) return {};
     const QString score = numberText(summary->score, 2);
+    if (summary->corrected == CorrectionKind::reject) return QObject::tr("%1, rejected by a person").arg(score);
     return summary->doubtful ? QObject::tr("%1, below %2: left out of the result")
                                    .arg(score, numberText(session.runData()->score_threshold, 2))
                              : score;

@@ -1,9 +1,11 @@
 #include "review/tracks_model.h"
 
+#include <QGuiApplication>
 #include <utility>
 
 #include "widgets/display_text.h"
 #include "widgets/tables/table_roles.h"
+#include "widgets/theme_colours.h"
 
 namespace eyrie::ui {
 
@@ -55,6 +57,8 @@ QVariant TracksModel::data(const QModelIndex& index, int role) const {
             return textOf(*track, index.column());
         case Qt::ToolTipRole:
             return tipOf(*track);
+        case Qt::ForegroundRole:
+            return isRejected(*track) ? QVariant(quietText(QGuiApplication::palette())) : QVariant();
         case Qt::TextAlignmentRole:
             if (index.column() == status_column || index.column() == class_column) return {};
             return QVariant(Qt::AlignRight | Qt::AlignVCenter);
@@ -142,8 +146,7 @@ QString TracksModel::helpOf(int column) const {
         case status_column:
             return tr(
                 "Confirmed: relied on. Tentative: too new to be relied on, and not part of the result. By hand, "
-                "joined, "
-                "split: what a person made of it");
+                "joined, split: what a person made of it. Rejected: left out of everything but this list");
         case score_column:
             return tr("Probability that the track is a moving vehicle, from 0 to 1");
         case class_column:

@@ -11,7 +11,13 @@
 
 namespace eyrie::ui {
 
-/// The tracks of a run, one row each, ascending id. Metres and km/h when the GSD is known, pixels otherwise.
+/// Whether a person said that a track is of nothing that drives.
+inline bool isRejected(const TrackSummary& track) {
+    return track.corrected == CorrectionKind::reject;
+}
+
+/// The tracks of a run, one row each, ascending id; those that a person rejected are grey. Metres and km/h when the GSD
+/// is known, pixels otherwise.
 class TracksModel : public RecordModel<TrackSummary> {
     Q_OBJECT
  public:

@@ -91,6 +91,8 @@ void TracksPanel::useSensitivity() {
 }
 
 bool TracksPanel::isOfTheRun(const TrackSummary& track) const {
+    // Nobody shall wonder where a track is that was rejected.
+    if (isRejected(track)) return true;
     // What the run left out counts once it is asked for.
     if (track.doubtful) return track.score >= minScore();
     return tentative_->isChecked() || track.confirmed;
@@ -110,10 +112,20 @@ void TracksPanel::filterTracks() {
 }
 
 QString TracksPanel::countText() const {
-    int all = 0;
-    for (int row = 0; row < tracks_->rowCount(); ++row) all += isOfTheRun(*tracks_->recordAt(row)) ? 1 : 0;
-    const int listed = table()->model()->rowCount();
-    return all == 1 ? tr("%1 of 1 track").arg(listed) : tr("%1 of %2 tracks").arg(listed).arg(all);
+    int all = 0, rejected = 0;
+    for (int row = 0; row < tracks_->rowCount(); ++row) {
+        const TrackSummary& track = *tracks_->recordAt(row);
+        rejected += isRejected(track) ? 1 : 0;
+        all += isOfTheRun(track) && !isRejected(track) ? 1 : 0;
+    }
+    const auto& shown = static_cast<const TableSortProxy&>(*table()->model());
+    int listed = shown.rowCount();
+    for (int row = 0; rejected > 0 && row < shown.rowCount(); ++row) {
+        const TrackSummary* track = tracks_->recordAt(shown.mapToSource(shown.index(row, 0)).row());
+        listed -= track != nullptr && isRejected(*track) ? 1 : 0;
+    }
+    const QString counted = all == 1 ? tr("%1 of 1 track").arg(listed) : tr("%1 of %2 tracks").arg(listed).arg(all);
+    return rejected == 0 ? counted : tr("%1, %2 rejected").arg(counted).arg(rejected);
 }
 
 void TracksPanel::showCount() {

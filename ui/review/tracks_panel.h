@@ -37,7 +37,7 @@ class TracksPanel : public TablePanel {
     /// `model` must outlive the panel.
     explicit TracksPanel(TracksModel* model, QWidget* parent = nullptr);
     void setCommands(TrackListCommands commands) { commands_ = std::move(commands); }
-    /// What the menu of a row offers beside going there: commands for the selected track, which outlive the panel.
+    /// What the menu of a row offers beside going there: commands for the selected tracks, which outlive the panel.
     void setMenuActions(QList<QAction*> actions) { menu_actions_ = std::move(actions); }
     /// Whether tracks that were never confirmed are listed; at first they are not.
     void setTentativeShown(bool shown);
@@ -54,7 +54,7 @@ class TracksPanel : public TablePanel {
     void listLike(std::optional<TrackId> track);
     /// How like tracks are to the one that was asked about; of another one it counts for nothing.
     void setLikeness(const std::shared_ptr<const LikenessByTrack>& likeness);
-    /// How many of the tracks are listed, "12 of 40 tracks".
+    /// How many of the tracks are listed, "12 of 40 tracks, 3 rejected"; neither number counts rejected ones.
     QString countText() const;
 
  protected:

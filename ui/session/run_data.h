@@ -16,7 +16,7 @@ struct RunData {
     RunRecord record;
     std::vector<std::pair<std::string, std::string>> parameters;
     std::vector<FrameSummary> frames;  ///< ascending frames
-    std::vector<TrackSummary> tracks;  ///< ascending id; also those that only their score kept out of the result
+    std::vector<TrackSummary> tracks;  ///< ascending id; also those that their score or a person kept out of the result
     /// What people made of the tracks, if that is shown; never null. `tracks` are these.
     std::shared_ptr<const CorrectedTracks> corrected = std::make_shared<const CorrectedTracks>();
     bool correctable = false;    ///< people corrected tracks of the video, whether that is shown or not
@@ -26,7 +26,8 @@ struct RunData {
 
 /// How many tracks the run itself holds.
 inline std::size_t ownTracks(const RunData& data) {
-    return data.tracks.size() + data.corrected->replaced.size() - data.corrected->tracks.size();
+    return data.tracks.size() + data.corrected->replaced.size() - data.corrected->tracks.size() -
+           data.corrected->rejected.size();
 }
 
 }  // namespace eyrie::ui

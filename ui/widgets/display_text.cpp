@@ -88,6 +88,8 @@ QString shownName(CorrectionKind kind) {
             return QObject::tr("joined");
         case CorrectionKind::split:
             return QObject::tr("split");
+        case CorrectionKind::reject:
+            return QObject::tr("rejected");
     }
     return {};
 }

@@ -47,7 +47,7 @@ QString leftText(double seconds);
 /// With a capital letter at its beginning.
 QString capitalised(QString text);
 
-/// What a person did to a track: "by hand", "joined", "split".
+/// What a person did to a track: "by hand", "joined", "split", "rejected".
 QString shownName(CorrectionKind kind);
 
 }  // namespace eyrie::ui

@@ -22,6 +22,7 @@
 #include "label/canvas/label_timeline.h"
 #include "label/label_workspace.h"
 #include "review/card/card_dock.h"
+#include "review/correct/track_correcting.h"
 #include "review/earth/earth_dock.h"
 #include "review/earth/ground_control.h"
 #include "review/earth/video_earth.h"
@@ -101,6 +102,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     review_ = new ReviewDocks({session_, *inspection_, *measured_, *docks_, *actions_, overlays_, *guard_, *messages_});
     events_ = new EventsDock({session_, *canvas_, *timeline_, *docks_, *actions_, *messages_});
     review_->setDoingsWanted([this] { events_->review().setWanted(); });
+    events_->correcting().setList(review_->tracks());
     connect(events_, &EventsDock::eventsShown, this, [this] {
         const auto& found = events_->review().found();
         review_->tracks().setDoings(found ? found->doings : nullptr);

@@ -232,11 +232,18 @@ void WindowActions::addEvents() {
     split_track = add(tr("Spl&it here"), {nullptr,
                                           {QKeySequence(tr("Shift+Y"))},
                                           QT_TR_NOOP("From this frame on the selected track is of another vehicle")});
+    reject_tracks =
+        add(tr("R&eject the selected tracks"),
+            {nullptr,
+             {QKeySequence(Qt::Key_Backspace)},
+             QT_TR_NOOP("The selected tracks are of nothing that drives: leave them out of everything but the list of "
+                        "tracks")});
     remove_correction =
         add(tr("Rem&ove what was corrected"),
             {"list-remove",
              {QKeySequence(tr("Shift+Insert"))},
-             QT_TR_NOOP("Take back the last that was done to the selected track: added, joined, split")});
+             QT_TR_NOOP("Take back the last that was done to each selected track: added, joined, split, "
+                        "rejected")});
     undo_verdict =
         add(tr("U&ndo"),
             {"edit-undo",

@@ -18,7 +18,7 @@ void EventArguments::addRunTo(CLI::App& command) {
 
 void addUncorrected(CLI::App& command, bool& uncorrected) {
     command.add_flag("--uncorrected", uncorrected,
-                     "The run's own tracks, without what people added, joined and split in Review");
+                     "The run's own tracks, without what people added, joined, split and rejected in Review");
 }
 
 void EventArguments::addSearchTo(CLI::App& command) {

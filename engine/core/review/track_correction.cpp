@@ -27,7 +27,7 @@ bool isPossibleBox(const OrientedBox& box) {
 }  // namespace
 
 const char* nameOf(CorrectionKind kind) {
-    constexpr std::array<const char*, 3> kNames = {"added", "joined", "split"};
+    constexpr std::array<const char*, 4> kNames = {"added", "joined", "split", "rejected"};
     return kNames.at(static_cast<std::size_t>(kind));
 }
 

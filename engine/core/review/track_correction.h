@@ -12,11 +12,12 @@
 namespace eyrie {
 
 enum class CorrectionKind {
-    add,   ///< a vehicle that has no track
-    join,  ///< two tracks are of one vehicle
-    split  ///< one track is of two vehicles
+    add,    ///< a vehicle that has no track
+    join,   ///< two tracks are of one vehicle
+    split,  ///< one track is of two vehicles
+    reject  ///< a track is of nothing that drives
 };
-/// What came of it, for files and on screen: "added", "joined", "split".
+/// What came of it, for files and on screen: "added", "joined", "split", "rejected".
 const char* nameOf(CorrectionKind kind);
 
 /// Where a vehicle is in a frame.
@@ -30,7 +31,8 @@ struct Sighting {
 struct TrackCorrection {
     int id = 0;  ///< within a project, from 1; never used again. Those of lower numbers were made, and hold, before
     CorrectionKind kind = CorrectionKind::add;
-    /// add: where the box was drawn; split: the first frame of the later vehicle; join: where the later track begins.
+    /// add: where the box was drawn; split: the first frame of the later vehicle; join: where the later track begins;
+    /// reject: where the track begins.
     FrameIndex frame = 0;
     /// add: the vehicle in all frames in which it is seen; else some by which the track is found. Ascending frames.
     std::vector<Sighting> track;

@@ -30,8 +30,10 @@ inline constexpr std::array<Word<CrossingSense>, 3> kCrossingSenses{
 inline constexpr std::array<Word<ZoneShape>, 2> kZoneShapes{{{ZoneShape::area, "area"}, {ZoneShape::line, "line"}}};
 inline constexpr std::array<Word<ZoneAnchor>, 2> kZoneAnchors{
     {{ZoneAnchor::image, "image"}, {ZoneAnchor::ground, "ground"}}};
-inline constexpr std::array<Word<CorrectionKind>, 3> kCorrectionKinds{
-    {{CorrectionKind::add, "add"}, {CorrectionKind::join, "join"}, {CorrectionKind::split, "split"}}};
+inline constexpr std::array<Word<CorrectionKind>, 4> kCorrectionKinds{{{CorrectionKind::add, "add"},
+                                                                       {CorrectionKind::join, "join"},
+                                                                       {CorrectionKind::split, "split"},
+                                                                       {CorrectionKind::reject, "reject"}}};
 inline constexpr std::array<Word<Judgement>, 4> kJudgements{{{Judgement::open, "open"},
                                                              {Judgement::relevant, "relevant"},
                                                              {Judgement::not_relevant, "not relevant"},

@@ -91,7 +91,8 @@ struct TrackSummary {
     double score = 0;       ///< of its last state; in a result the same in all: the probability of a vehicle that moves
     bool doubtful = false;  ///< only its score kept it out of the result
     TrackClass track_class = TrackClass::unknown;  ///< by its size and speed so far and the run's limits
-    std::optional<CorrectionKind> corrected;       ///< what a person did to it last; no track of the store has it
+    /// What a person did to it last, no track of the store has it. Rejected: it is in lists alone, and never confirmed.
+    std::optional<CorrectionKind> corrected;
 };
 
 /// One state of a track in a frame.

@@ -57,11 +57,11 @@ inline ReviewEdit sampleZoning(int id) {
     return edit;
 }
 
-/// Every third one adds, joins, splits.
+/// They join, split, reject and add in turn.
 inline TrackCorrection sampleCorrection(int id) {
     TrackCorrection correction;
     correction.id = id;
-    correction.kind = static_cast<CorrectionKind>(id % 3);
+    correction.kind = static_cast<CorrectionKind>(id % 4);
     correction.frame = 12 + id;
     for (int i = 0; i < 5; ++i) correction.track.push_back({10 + id + i, {{20.125 + i, 30.5}, 12.25, 6.5, 0.1 * i}});
     if (correction.kind == CorrectionKind::join) correction.other = {{40 + id, {{90.125, 31.5}, 12, 6, -0.25}}};

@@ -147,6 +147,37 @@ TEST_F(ReviewStoreTest, CorrectionsOfTracksAreThereAfterARestartToTheBitAndGoBac
     EXPECT_EQ(store.review().corrections, read.corrections);
 }
 
+TEST_F(ReviewStoreTest, TracksAreRejectedInAProjectThatKnewNoRejections) {
+    // As a version of before wrote it.
+    ReviewStore(project_, 1).apply(test::sampleCorrecting(1));
+    tamper(
+        "INSERT INTO correction SELECT 2, sequence_id, 'add', frame, track, x'01', person, when_utc FROM correction "
+        "WHERE id = 1 AND kind = 'join'");
+    {
+        ReviewStore store(project_, 1);
+        EXPECT_EQ(store.review().corrections.at(2).kind, CorrectionKind::add);
+        ReviewEdit rejecting = test::sampleCorrecting(3);
+        rejecting.corrections.push_back({std::nullopt, test::sampleCorrection(7)});
+        store.apply(rejecting);
+    }
+    tamper("UPDATE correction SET person = 'Cy' WHERE kind = 'reject' AND id IN (3, 7)");
+    EXPECT_TRUE(checkProject(path_).healthy());
+    const auto read = readReview(project_, 1).corrections;
+    ASSERT_EQ(read.size(), 4U);
+    EXPECT_EQ(read.at(1), test::sampleCorrection(1));
+    for (const int id : {3, 7}) {
+        EXPECT_EQ(read.at(id).kind, CorrectionKind::reject);
+        EXPECT_EQ(read.at(id).person, "Cy") << "the word in the file";
+        EXPECT_EQ(read.at(id).track, test::sampleCorrection(id).track);
+    }
+    tamper("UPDATE correction SET person = 'Bo' WHERE person = 'Cy'");
+    ReviewStore store(project_, 1);
+    store.undo();
+    EXPECT_EQ(store.review().corrections.size(), 2U) << "both were one step";
+    store.redo();
+    EXPECT_EQ(readReview(project_, 1).corrections.at(7), test::sampleCorrection(7));
+}
+
 TEST_F(ReviewStoreTest, ASecondProgramReadsCorrectionsAndMayNotMakeAny) {
     ReviewStore store(project_, 1);
     ProjectFile second_project = ProjectFile::open(path_);
@@ -170,12 +201,14 @@ TEST_F(ReviewStoreTest, CorrectionsThatCannotBeAreRefusedAndChangeNothing) {
         errorOf([&] { store.apply(edit); }, ErrorKind::internal);
         EXPECT_TRUE(store.review().corrections.empty());
     };
-    refused(3, [](TrackCorrection& adding) { adding.track.clear(); });
-    refused(3, [](TrackCorrection& adding) { adding.other = adding.track; });
-    refused(3, [](TrackCorrection& adding) { adding.track[2].frame = adding.track[1].frame; });
-    refused(3, [](TrackCorrection& adding) { adding.track[1].box.length = 0; });
-    refused(3, [](TrackCorrection& adding) { adding.track[1].box.heading = std::nan(""); });
-    refused(3, [](TrackCorrection& adding) { adding.track[1].box.centre.x = 2e6; });
+    for (const int like : {3, 4}) {  // rejecting, adding
+        refused(like, [](TrackCorrection& of_one) { of_one.track.clear(); });
+        refused(like, [](TrackCorrection& of_one) { of_one.other = of_one.track; });
+        refused(like, [](TrackCorrection& of_one) { of_one.track[2].frame = of_one.track[1].frame; });
+        refused(like, [](TrackCorrection& of_one) { of_one.track[1].box.length = 0; });
+        refused(like, [](TrackCorrection& of_one) { of_one.track[1].box.heading = std::nan(""); });
+        refused(like, [](TrackCorrection& of_one) { of_one.track[1].box.centre.x = 2e6; });
+    }
     refused(1, [](TrackCorrection& joining) { joining.other.clear(); });
     refused(2, [](TrackCorrection& splitting) { splitting.frame = splitting.track.front().frame; });
     refused(2, [](TrackCorrection& splitting) { splitting.frame = splitting.track.back().frame + 1; });

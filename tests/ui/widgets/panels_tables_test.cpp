@@ -191,6 +191,27 @@ class TablesTest : public QObject {
         QCOMPARE(panel.sensitivity()->value(), 100);
     }
 
+    void rejectedTracksStayListedInGreyAndAreCountedApart() {
+        TracksModel model;
+        TracksPanel panel(&model);
+        std::vector<TrackSummary> tracks{sampleTrack(1), sampleTrack(2), sampleTrack(4)};
+        model.setTracks(tracks, {});
+        panel.show();
+        QCOMPARE(panel.countText(), QStringLiteral("3 of 3 tracks"));
+        QVERIFY(!model.index(1, 0).data(Qt::ForegroundRole).isValid());
+        tracks[1].corrected = CorrectionKind::reject;
+        tracks[1].confirmed = false;
+        model.setTracks(tracks, {});
+        QCOMPARE(panel.table()->model()->rowCount(), 3);
+        QCOMPARE(model.index(1, TracksModel::status_column).data().toString(), QStringLiteral("rejected"));
+        QVERIFY(model.index(1, 0).data(Qt::ForegroundRole).isValid());
+        QVERIFY(!model.index(0, 0).data(Qt::ForegroundRole).isValid());
+        QCOMPARE(panel.countText(), QStringLiteral("2 of 2 tracks, 1 rejected"));
+        panel.setFilterText(QStringLiteral("rejected"));
+        QCOMPARE(panel.table()->model()->rowCount(), 1);
+        QCOMPARE(panel.countText(), QStringLiteral("0 of 2 tracks, 1 rejected"));
+    }
+
     void aTrackIsListedFromTheVeryThresholdOn() {
         TracksModel model;
         TracksPanel panel(&model);

@@ -29,7 +29,7 @@ namespace eyrie::ui::correcting_window_test {
 
 using test::kPatience_ms;
 
-/// Tracks added, joined and split by hand, in the window.
+/// Tracks added, joined, split and rejected by hand, in the window.
 class CorrectingWindowTest : public QObject {
     Q_OBJECT
 
@@ -247,9 +247,9 @@ class CorrectingWindowTest : public QObject {
         QVERIFY(goTo(*window, whole.first_frame));
         QVERIFY(window->actions().split_track->isEnabled());
         const WindowActions& commands = window->actions();
-        QCOMPARE(menuOf(window->review().tracks()).last(5),
+        QCOMPARE(menuOf(window->review().tracks()).last(6),
                  QList<QAction*>({commands.follow_object, commands.like_track, commands.join_tracks,
-                                  commands.split_track, commands.remove_correction}));
+                                  commands.split_track, commands.reject_tracks, commands.remove_correction}));
         window->activateWindow();
         QVERIFY(QTest::qWaitForWindowActive(window.get()));
         QTest::keyClick(&window->canvas(), Qt::Key_Y, Qt::ShiftModifier);
@@ -289,6 +289,87 @@ class CorrectingWindowTest : public QObject {
         QCOMPARE(RunStore(file).tracks(RunStore(file).runs().front().id).size(), all);
         QTest::keyClick(&window->canvas(), Qt::Key_Z);
         QVERIFY(waitForTracks(*window, all));
+    }
+
+    void severalTracksAreRejectedAtOnceAndTakenBack() {
+        std::size_t all = 0;
+        std::vector<TrackId> two;
+        {
+            const auto window = windowWithRun();
+            QVERIFY(window);
+            all = tracks(*window).size();
+            QVERIFY(all >= 2);
+            const WindowActions& commands = window->actions();
+            QVERIFY2(!commands.reject_tracks->isEnabled(), "nothing is selected");
+            TracksPanel& list = window->review().tracks();
+            const QAbstractItemModel* shown = list.table()->model();
+            QCOMPARE(shown->rowCount(), static_cast<int>(all));
+            const auto chooseFirstTwo = [&] {
+                window->session().selectTrack(shown->index(0, 0).data(id_role).toInt());
+                list.table()->selectionModel()->select(shown->index(1, 0),
+                                                       QItemSelectionModel::Select | QItemSelectionModel::Rows);
+                return list.selectedIds();
+            };
+            const QList<int> chosen = chooseFirstTwo();
+            QCOMPARE(chosen.size(), 2);
+            two.assign(chosen.begin(), chosen.end());
+            QVERIFY(commands.reject_tracks->isEnabled());
+            QTest::keyClick(&window->canvas(), Qt::Key_Backspace);
+            QVERIFY2(waitForTracks(*window, all - 2), qPrintable(window->messages().texts().join(QLatin1Char('\n'))));
+            QVERIFY(tells(*window, tr("2 tracks are rejected")));
+            // They are listed still, and drawn no more.
+            QCOMPARE(shown->rowCount(), static_cast<int>(all));
+            for (const TrackId id : two) QCOMPARE(statusOf(*window, id), tr("rejected"));
+            QVERIFY(list.countText().endsWith(tr("%1, %2 rejected").arg(QString()).arg(2)));
+            const TrackSummary* summary = window->session().trackSummary(two[0]);
+            QVERIFY(summary != nullptr);
+            QVERIFY(goTo(*window, summary->first_frame));
+            const auto is_drawn = [&] {
+                const auto& result = window->session().viewFrame().result;
+                return !result || std::any_of(result->tracks.begin(), result->tracks.end(),
+                                              [&](const TrackState& state) { return state.id == two[0]; });
+            };
+            QVERIFY(QTest::qWaitFor([&] { return !is_drawn(); }, kPatience_ms));
+            for (const auto& [id, correction] : window->events().review().corrections()) {
+                QCOMPARE(correction.kind, CorrectionKind::reject);
+                QVERIFY(!correction.when_utc.empty());
+            }
+            // One step, undone and done again.
+            QTest::keyClick(&window->canvas(), Qt::Key_Z);
+            QVERIFY(waitForTracks(*window, all));
+            QTest::keyClick(&window->canvas(), Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+            QVERIFY(waitForTracks(*window, all - 2));
+            // One of them is taken back from the list, where it can be neither rejected again nor split.
+            window->session().selectTrack(two[1]);
+            QVERIFY(!commands.reject_tracks->isEnabled());
+            QVERIFY(!commands.split_track->isEnabled());
+            QVERIFY(!commands.join_tracks->isEnabled());
+            QVERIFY(commands.remove_correction->isEnabled());
+            commands.remove_correction->trigger();
+            QVERIFY(waitForTracks(*window, all - 1));
+            QVERIFY(tells(*window, tr("Track %1 is no longer %2.").arg(two[1]).arg(QStringLiteral("rejected"))));
+            QCOMPARE(statusOf(*window, two[1]), tr("confirmed"));
+            QTest::keyClick(&window->canvas(), Qt::Key_Z);
+            QVERIFY(waitForTracks(*window, all - 2));
+            // Both at once; others that nobody corrected do not matter.
+            chooseFirstTwo();
+            list.table()->selectAll();
+            QVERIFY(commands.remove_correction->isEnabled());
+            commands.remove_correction->trigger();
+            QVERIFY(waitForTracks(*window, all));
+            QVERIFY(tells(*window, tr("2 corrections were taken back")));
+            QTest::keyClick(&window->canvas(), Qt::Key_Z);
+            QVERIFY(waitForTracks(*window, all - 2));
+        }
+        const auto window = windowWithRun();
+        QVERIFY(window);
+        QVERIFY2(waitForTracks(*window, all - 2), "they are rejected the next day");
+        for (const TrackId id : two) QCOMPARE(statusOf(*window, id), tr("rejected"));
+        QVERIFY(test::runAndWait(window->session()));
+        QVERIFY2(waitForTracks(*window, all - 2), "and in another run");
+        // Engineers see what the run found.
+        QTest::keyClick(window.get(), Qt::Key_3, Qt::ControlModifier);
+        QVERIFY(QTest::qWaitFor([&] { return tracks(*window).size() == all; }, kPatience_ms));
     }
 
     void tracksOfTwoVehiclesAreNotJoined() {

@@ -83,6 +83,8 @@ void CardDock::showSelection() {
     CardSubject subject;
     subject.title = summary != nullptr && summary->doubtful
                         ? tr("Track %1 · left out of the result for its score; its way is not worked out").arg(*track)
+                    : summary != nullptr && summary->corrected == CorrectionKind::reject
+                        ? tr("Track %1 · rejected; its way is not worked out").arg(*track)
                         : tr("Track %1").arg(*track);
     subject.track = *track;
     subject.frame = parts_.session.currentFrame();

@@ -1,6 +1,9 @@
 #include "review/correct/track_correcting.h"
 
+#include <QTableView>
 #include <exception>
+#include <map>
+#include <set>
 #include <utility>
 
 #include "canvas/video_view.h"
@@ -8,6 +11,7 @@
 #include "correction/corrected_run.h"
 #include "review/correct/vehicle_box_tool.h"
 #include "review/events/event_review.h"
+#include "review/tracks_panel.h"
 #include "session/background/pace.h"
 #include "session/project/media.h"
 #include "session/project_session.h"
@@ -23,18 +27,23 @@ namespace {
 const QString kCorrectingTopic = QStringLiteral("correcting tracks");
 constexpr double kThereAlready = 0.3;  ///< overlap of a box that is drawn with one that is shown
 
+bool isRejectable(const TrackSummary& track) {
+    return !track.doubtful && !isRejected(track);
+}
+
 }  // namespace
 
-/// What would come of a correction.
+/// What would come of corrections.
 struct TrackCorrecting::Tried {
-    TrackCorrection correction;
-    CorrectionState state = CorrectionState::no_track;
-    TrackId last_id = 0;   ///< the highest of the run
-    TrackId covering = 0;  ///< a track that has it so already
-    DrawnVehicle vehicle;  ///< what was followed
+    std::vector<TrackCorrection> made;                  ///< those of which something comes
+    TrackCorrection refused;                            ///< else the last of which nothing does,
+    CorrectionState state = CorrectionState::no_track;  ///< and why
+    TrackId last_id = 0;                                ///< the highest of the run
+    TrackId covering = 0;                               ///< a track that has it so already
+    DrawnVehicle vehicle;                               ///< what was followed
 
     /// The track that an addition or a split makes.
-    TrackId newTrack() const { return last_id + correction.id; }
+    TrackId newTrack() const { return last_id + made.front().id; }
 };
 
 /// What it is made from.
@@ -46,11 +55,13 @@ struct TrackCorrecting::Trial {
     Tried& tried;
 
     std::vector<TrackFrame> statesOf(TrackId track) const {
+        if (corrected.rejected.contains(track))
+            throw Error(ErrorKind::parameter, "track " + std::to_string(track) + " is rejected; take that back first");
         std::vector<TrackFrame> states = trackStates(store, run.id, track, corrected);
         if (states.empty())
             throw Error(ErrorKind::parameter, "track " + std::to_string(track) +
                                                   " is no part of the run's result (its score kept it out); only "
-                                                  "tracks of the result are joined and split");
+                                                  "tracks of the result are joined, split and rejected");
         return states;
     }
 };
@@ -64,6 +75,7 @@ TrackCorrecting::TrackCorrecting(const CorrectingParts& parts, QObject* parent)
                            {actions.add_track, [this](bool on) { startDrawing(on); }},
                            {actions.join_tracks, [this](bool on) { startJoin(on); }},
                            {actions.split_track, [this] { split(); }},
+                           {actions.reject_tracks, [this] { reject(); }},
                            {actions.remove_correction, [this] { removeLast(); }},
                            {actions.deselect,
                             [this] {
@@ -92,6 +104,12 @@ TrackCorrecting::TrackCorrecting(const CorrectingParts& parts, QObject* parent)
 
 TrackCorrecting::~TrackCorrecting() = default;
 
+void TrackCorrecting::setList(const TracksPanel& list) {
+    list_ = &list;
+    whenAny(list.table()->selectionModel(), this, &TrackCorrecting::enableActions,
+            &QItemSelectionModel::selectionChanged);
+}
+
 void TrackCorrecting::setActive(bool active) {
     active_ = active;
     if (!active) {
@@ -107,32 +125,68 @@ void TrackCorrecting::enableActions() {
     const auto& tracks = parts_.review.tracks();
     const bool possible = active_ && !working_ && parts_.review.canMark() && tracks;
     actions.add_track->setEnabled(possible);
-    actions.join_tracks->setEnabled(possible && selected);
-    actions.split_track->setEnabled(possible && selected);
-    actions.remove_correction->setEnabled(possible && selected && tracks->corrections.track(*selected) != nullptr);
+    const bool of_one = possible && selected;
+    const bool rejected = of_one && tracks->corrections.rejected.contains(*selected);
+    actions.join_tracks->setEnabled(of_one && !rejected);
+    actions.split_track->setEnabled(of_one && !rejected);
+    // Each of many is looked at when it is asked for: this is done in every frame.
+    const bool of_many = of_one && areSeveralChosen();
+    const TrackSummary* summary = selected ? parts_.session.trackSummary(*selected) : nullptr;
+    actions.reject_tracks->setEnabled(of_many || (of_one && summary != nullptr && isRejectable(*summary)));
+    actions.remove_correction->setEnabled(of_many || (of_one && tracks->corrections.touched(*selected) != nullptr));
+}
+
+// ---- which tracks ---------------------------------------------------------------------------------------------------
+
+std::vector<TrackId> TrackCorrecting::chosen() const {
+    const auto selected = parts_.session.selectedTrack();
+    if (!selected) return {};
+    const QList<int> listed = list_ ? list_->selectedIds() : QList<int>();
+    // A track whose row is filtered away is meant alone.
+    if (!listed.contains(*selected)) return {*selected};
+    return {listed.begin(), listed.end()};
+}
+
+bool TrackCorrecting::areSeveralChosen() const {
+    if (!list_) return false;
+    int rows = 0;
+    for (const QItemSelectionRange& range : list_->table()->selectionModel()->selection()) rows += range.height();
+    return rows > 1;
 }
 
 // ---- trying ---------------------------------------------------------------------------------------------------------
 
-void TrackCorrecting::attempt(const QString& step, const Make& make, const Kept& kept) {
+void TrackCorrecting::attempt(const QString& step, const Make& make, const Kept& kept, std::size_t most) {
     const auto& data = parts_.session.runData();
     if (working_ || !data) return;
     working_ = true;
     enableActions();
-    const auto work = [this, step, make, kept, project = parts_.session.project(), run = data->record,
-                       number = parts_.review.newCorrectionId(), corrections = parts_.review.corrections(),
+    std::vector<int> numbers(most);
+    for (int& number : numbers) number = parts_.review.newCorrectionId();
+    const auto work = [this, step, make, kept, numbers, project = parts_.session.project(), run = data->record,
+                       corrections = parts_.review.corrections(),
                        memo = parts_.session.correctedTracks()](const BackgroundTask& task) mutable {
         ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
         const RunStore store(file);
         auto tried = std::make_shared<Tried>();
         const auto before = memo->of(store, project, run, corrections);
-        tried->correction = make({store, run, *before, task, *tried});
-        tried->correction.id = number;
-        corrections[number] = tried->correction;
+        std::vector<TrackCorrection> wanted = make({store, run, *before, task, *tried});
+        for (std::size_t i = 0; i < wanted.size(); ++i) {
+            wanted[i].id = numbers.at(i);
+            corrections[wanted[i].id] = wanted[i];
+        }
         const auto made = memo->of(store, project, run, corrections);
-        tried->state = made->states.at(number);
-        const auto covering = made->covering.find(number);
-        if (covering != made->covering.end()) tried->covering = covering->second;
+        for (TrackCorrection& correction : wanted) {
+            const CorrectionState state = made->states.at(correction.id);
+            if (state == CorrectionState::applied) {
+                tried->made.push_back(std::move(correction));
+                continue;
+            }
+            tried->state = state;
+            const auto covering = made->covering.find(correction.id);
+            if (covering != made->covering.end()) tried->covering = covering->second;
+            tried->refused = std::move(correction);
+        }
         tried->last_id = store.lastTrackId(run.id);
         task.tell([this, step, tried, kept, project, run_id = run.id] {
             working_ = false;
@@ -151,14 +205,14 @@ void TrackCorrecting::attempt(const QString& step, const Make& make, const Kept&
 
 void TrackCorrecting::finish(const QString& step, const Tried& tried, const Kept& kept) {
     parts_.messages.dismissTopic(kCorrectingTopic);
-    if (tried.state != CorrectionState::applied) return tellRefused(tried);
-    if (parts_.review.correct(tried.correction, step)) kept(tried);
+    if (tried.made.empty()) return tellRefused(tried);
+    if (parts_.review.correct(tried.made, step)) kept(tried);
 }
 
 void TrackCorrecting::tellRefused(const Tried& tried) {
     switch (tried.state) {
         case CorrectionState::covered:
-            warn(tried.correction.kind == CorrectionKind::add
+            warn(tried.refused.kind == CorrectionKind::add
                      ? tr("Track %1 has this vehicle for most of the time already; nothing was added.")
                            .arg(tried.covering)
                      : tr("It is so already."));
@@ -179,7 +233,7 @@ void TrackCorrecting::warn(const QString& text) {
     parts_.messages.showTopic(kCorrectingTopic, MessageKind::warning, text);
 }
 
-// ---- joining and splitting ------------------------------------------------------------------------------------------
+// ---- joining, splitting, rejecting ----------------------------------------------------------------------------------
 
 void TrackCorrecting::startJoin(bool wanted) {
     const auto selected = parts_.session.selectedTrack();
@@ -204,7 +258,9 @@ void TrackCorrecting::joinWithSelected() {
     endJoin();
     attempt(
         tr("Join tracks %1 and %2").arg(one).arg(*other),
-        [one, other = *other](const Trial& trial) { return joinOf(trial.statesOf(one), trial.statesOf(other)); },
+        [one, other = *other](const Trial& trial) {
+            return std::vector{joinOf(trial.statesOf(one), trial.statesOf(other))};
+        },
         [this, one, other = *other](const Tried&) {
             // It has the number of the one that begins first.
             const auto first = parts_.session.trackSummary(one), second = parts_.session.trackSummary(other);
@@ -224,7 +280,7 @@ void TrackCorrecting::split() {
     const FrameIndex frame = parts_.session.shownFrame();
     attempt(
         tr("Split track %1").arg(*selected),
-        [track = *selected, frame](const Trial& trial) { return splitOf(trial.statesOf(track), frame); },
+        [track = *selected, frame](const Trial& trial) { return std::vector{splitOf(trial.statesOf(track), frame)}; },
         [this, track = *selected, frame](const Tried& tried) {
             parts_.session.selectTrack(tried.newTrack());
             tell(tr("Track %1 ends before frame %2; from there on it is track %3. Z takes it back.")
@@ -234,18 +290,58 @@ void TrackCorrecting::split() {
         });
 }
 
+void TrackCorrecting::reject() {
+    const auto& data = parts_.session.runData();
+    if (!data) return;
+    const std::vector<TrackId> all = chosen();
+    const std::set<TrackId> wanted(all.begin(), all.end());
+    std::vector<TrackId> tracks;
+    for (const TrackSummary& track : data->tracks)
+        if (wanted.contains(track.id) && isRejectable(track)) tracks.push_back(track.id);
+    if (tracks.empty())
+        return warn(tr("None of the selected tracks is part of the result, so there is nothing to reject."));
+    const auto make = [tracks](const Trial& trial) {
+        std::vector<TrackCorrection> rejections;
+        for (const TrackId track : tracks) rejections.push_back(rejectionOf(trial.statesOf(track)));
+        return rejections;
+    };
+    const auto kept = [this, tracks](const Tried& tried) {
+        tell(
+            tracks.size() == 1
+                ? tr("Track %1 is rejected: only the list of tracks has it still. Z takes it back.").arg(tracks.front())
+                : tr("%1 tracks are rejected: only the list of tracks has them still. Z takes them back.")
+                      .arg(tried.made.size()));
+    };
+    attempt(tracks.size() == 1 ? tr("Reject track %1").arg(tracks.front()) : tr("Reject %1 tracks").arg(tracks.size()),
+            make, kept, tracks.size());
+}
+
 void TrackCorrecting::removeLast() {
-    const auto selected = parts_.session.selectedTrack();
     const auto& tracks = parts_.review.tracks();
-    if (!selected || !tracks) return;
-    const CorrectedTrack* track = tracks->corrections.track(*selected);
-    if (track == nullptr || track->corrections.empty()) return;
-    const int last = track->corrections.back();
-    const auto correction = parts_.review.corrections().find(last);
-    if (correction == parts_.review.corrections().end()) return;
-    const QString done = QString::fromUtf8(nameOf(correction->second.kind));
-    if (parts_.review.removeCorrections({last}, tr("Remove \"%1\" of track %2").arg(done).arg(*selected)))
-        tell(tr("Track %1 is no longer %2. Z brings it back.").arg(*selected).arg(done));
+    if (!tracks) return;
+    const auto& corrections = parts_.review.corrections();
+    std::map<int, TrackId> last;  // both parts of a split have one
+    for (const TrackId id : chosen()) {
+        const CorrectedTrack* track = tracks->corrections.touched(id);
+        if (track != nullptr && !track->corrections.empty() && corrections.contains(track->corrections.back()))
+            last.emplace(track->corrections.back(), id);
+    }
+    if (last.empty()) return warn(tr("Nobody corrected any of the selected tracks."));
+    std::vector<int> ids;
+    for (const auto& [id, track] : last) ids.push_back(id);
+    if (ids.size() > 1) {
+        if (parts_.review.removeCorrections(ids, tr("Take back %1 corrections").arg(ids.size())))
+            tell(tr("%1 corrections were taken back. Z brings them back.").arg(ids.size()));
+        return;
+    }
+    const auto& [id, track] = *last.begin();
+    const CorrectionKind kind = corrections.at(id).kind;
+    const QString done = QString::fromUtf8(nameOf(kind));
+    if (parts_.review.removeCorrections(ids, tr("Remove \"%1\" of track %2").arg(done).arg(track)))
+        tell((kind == CorrectionKind::reject ? tr("Track %1 is no longer %2. Z rejects it again.")
+                                             : tr("Track %1 is no longer %2. Z brings it back."))
+                 .arg(track)
+                 .arg(done));
 }
 
 // ---- adding ---------------------------------------------------------------------------------------------------------
@@ -297,7 +393,7 @@ void TrackCorrecting::follow(const OrientedBox& box) {
             throw Error(ErrorKind::parameter,
                         "the vehicle could be followed to no other frame (" + vehicle.ended_after +
                             "); draw the box closely, or in a frame in which it is seen better, or set a bookmark");
-        return additionOf(vehicle.sightings, frame);
+        return std::vector{additionOf(vehicle.sightings, frame)};
     };
     attempt(tr("Add a track"), make, [this](const Tried& tried) {
         const std::vector<Sighting>& seen = tried.vehicle.sightings;

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <QObject>
+#include <QPointer>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <stop_token>
+#include <vector>
 
 #include "correction/drawn_vehicle.h"
 #include "session/background/background_query.h"
@@ -14,6 +16,7 @@ namespace eyrie::ui {
 class EventReview;
 class MessageBar;
 class ProjectSession;
+class TracksPanel;
 class VehicleBoxTool;
 class VideoView;
 class WindowActions;
@@ -27,8 +30,8 @@ struct CorrectingParts {
     EventReview& review;
 };
 
-/// Tracks added, joined and split by hand. What is asked for is tried on the run that is shown, in the background, and
-/// kept if something comes of it; it can be undone as verdicts are.
+/// Tracks added, joined, split and rejected by hand. What is asked for is tried on the run that is shown, in the
+/// background, and kept if something comes of it; it can be undone as verdicts are.
 class TrackCorrecting : public QObject {
     Q_OBJECT
 
@@ -36,6 +39,8 @@ class TrackCorrecting : public QObject {
     explicit TrackCorrecting(const CorrectingParts& parts, QObject* parent = nullptr);
     ~TrackCorrecting() override;
 
+    /// Where several tracks are selected at once, to be rejected or taken back together.
+    void setList(const TracksPanel& list);
     /// Whether keys are wanted: labelling has others.
     void setActive(bool active);
     /// To be called when verdicts were read or changed.
@@ -48,8 +53,9 @@ class TrackCorrecting : public QObject {
  private:
     struct Tried;
     struct Trial;
-    /// What is to be tried, made in the background from the tracks as they are shown.
-    using Make = std::function<TrackCorrection(const Trial&)>;
+    /// What is to be tried, made in the background from the tracks as they are shown: at most as many as were asked
+    /// for.
+    using Make = std::function<std::vector<TrackCorrection>(const Trial&)>;
     using Kept = std::function<void(const Tried&)>;
 
     void startDrawing(bool wanted);
@@ -58,8 +64,12 @@ class TrackCorrecting : public QObject {
     void endJoin();
     void joinWithSelected();
     void split();
+    void reject();
     void removeLast();
-    void attempt(const QString& step, const Make& make, const Kept& kept);
+    /// The selected track, with it all that are selected in the list.
+    std::vector<TrackId> chosen() const;
+    bool areSeveralChosen() const;
+    void attempt(const QString& step, const Make& make, const Kept& kept, std::size_t most = 1);
     void finish(const QString& step, const Tried& tried, const Kept& kept);
     void tellRefused(const Tried& tried);
     void tell(const QString& text);
@@ -68,6 +78,7 @@ class TrackCorrecting : public QObject {
 
     CorrectingParts parts_;
     VehicleBoxTool* tool_;
+    QPointer<const TracksPanel> list_;
     bool active_ = true;
     bool working_ = false;
     std::optional<TrackId> join_with_;  ///< waits for the other one to be selected

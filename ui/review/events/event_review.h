@@ -85,8 +85,8 @@ class EventReview : public QObject {
     const std::map<int, TrackCorrection>& corrections() const;
     /// The number of the next one. Only where canMark().
     int newCorrectionId() { return store_->newCorrectionId(); }
-    /// Makes one of a new number; the person is named here. Answers whether it was made.
-    bool correct(TrackCorrection correction, const QString& step);
+    /// Makes some of new numbers, as one step; the person is named here. Answers whether they were made.
+    bool correct(std::vector<TrackCorrection> corrections, const QString& step);
     /// Takes them back.
     bool removeCorrections(const std::vector<int>& ids, const QString& step);
     /// The tracks as people corrected them, and how the camera moved over the ground; null until the run was read.

@@ -79,14 +79,16 @@ const std::map<int, TrackCorrection>& EventReview::corrections() const {
     return store_ ? store_->review().corrections : none;
 }
 
-bool EventReview::correct(TrackCorrection correction, const QString& step) {
+bool EventReview::correct(std::vector<TrackCorrection> corrections, const QString& step) {
     const bool made = applyStep([&] {
         const Judge judge = whoJudges();
-        correction.person = judge.person;
-        correction.when_utc = judge.when_utc;
         ReviewEdit edit;
         edit.name = step.toStdString();
-        edit.corrections.push_back({std::nullopt, correction});
+        for (TrackCorrection& correction : corrections) {
+            correction.person = judge.person;
+            correction.when_utc = judge.when_utc;
+            edit.corrections.push_back({std::nullopt, correction});
+        }
         return edit;
     });
     if (made) useOtherCorrections();

@@ -201,9 +201,11 @@ void EventsDock::explainNothing() {
             text = tr("Events could not be read; the message above the video says why.");
             break;
         case EventReview::State::found:
-            text = review_->found()->run->tracks.empty() && parts_.session.runData()
-                       ? whyNoTracks(parts_.session.runData()->facts)
-                       : tr("Nothing that happened is an event by these limits.");
+            text = !review_->found()->run->tracks.empty() ? tr("Nothing that happened is an event by these limits.")
+                   : !review_->found()->run->corrections.rejected.empty()
+                       ? tr("All tracks are rejected; the list of tracks has them still.")
+                   : parts_.session.runData() ? whyNoTracks(parts_.session.runData()->facts)
+                                              : tr("Nothing that happened is an event by these limits.");
             break;
     }
     panel_->emptyState()->setTexts(text);

@@ -78,8 +78,9 @@ class ProjectReader::Worker {
             data->frames = store.frameSummaries(run_id);
             readCorrections(store, *data, corrected);
             data->tracks = trackSummaries(store, run_id, *data->corrected);
-            for (TrackSummary& doubtful : store.doubtful().summaries(run_id))
-                data->tracks.push_back(std::move(doubtful));
+            for (const auto& left_out :
+                 {store.doubtful().summaries(run_id), rejectedSummaries(store, run_id, *data->corrected)})
+                data->tracks.insert(data->tracks.end(), left_out.begin(), left_out.end());
             std::stable_sort(data->tracks.begin(), data->tracks.end(),
                              [](const TrackSummary& a, const TrackSummary& b) { return a.id < b.id; });
             data->score_threshold = store.doubtful().scoreThreshold(run_id);
@@ -98,6 +99,8 @@ class ProjectReader::Worker {
     void readTrack(int run_id, TrackId track, const CorrectedTracks& corrected) {
         guarded([this, run_id, track, &corrected](RunStore& store) {
             std::vector<TrackFrame> states = trackStates(store, run_id, track, corrected);
+            if (const auto rejected = corrected.rejected.find(track); rejected != corrected.rejected.end())
+                states = rejected->second.states;
             if (states.empty()) states = store.doubtful().statesOf(run_id, track);
             tell([this, run_id, track, states = std::move(states)] { emit owner_.trackRead(run_id, track, states); });
         });

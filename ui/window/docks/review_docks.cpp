@@ -117,7 +117,7 @@ void ReviewDocks::wireTracks() {
     });
     const WindowActions& actions = parts_.actions;
     tracks_->setMenuActions({actions.follow_object, actions.like_track, actions.join_tracks, actions.split_track,
-                             actions.remove_correction, actions.clip_track});
+                             actions.reject_tracks, actions.remove_correction, actions.clip_track});
 }
 
 void ReviewDocks::explainNoTracks() {

@@ -97,13 +97,16 @@ void printLeft(const JudgedEvents& judged, const ReviewSet& review) {
 
 void printCorrections(const CorrectedTracks& corrected, const ReviewSet& review) {
     if (corrected.states.empty()) return;
-    std::printf("tracks as people corrected them: %s:\n", correctionsInWords(corrected).c_str());
+    const std::string words = correctionsInWords(corrected);
+    std::printf("tracks as people corrected them:%s\n", words.empty() ? "" : (" " + words + ":").c_str());
     for (const auto& [id, state] : corrected.states) {
         const TrackCorrection& correction = review.corrections.at(id);
         std::string tracks;
-        for (const auto& [track, made] : corrected.tracks) {
-            if (std::find(made.corrections.begin(), made.corrections.end(), id) != made.corrections.end())
-                tracks += (tracks.empty() ? "" : ", ") + std::to_string(track);
+        for (const auto* all : {&corrected.tracks, &corrected.rejected}) {
+            for (const auto& [track, made] : *all) {
+                if (std::find(made.corrections.begin(), made.corrections.end(), id) != made.corrections.end())
+                    tracks += (tracks.empty() ? "" : ", ") + std::to_string(track);
+            }
         }
         const auto covering = corrected.covering.find(id);
         if (covering != corrected.covering.end()) tracks = std::to_string(covering->second);
