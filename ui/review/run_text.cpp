@@ -35,13 +35,16 @@ QString howItEnded(const RunRecord& run, const RunFacts& facts) {
         .arg(name, QLocale().toString(facts.counts.frames), frames(facts.frames_planned));
 }
 
-/// "12 frames could not be registered (too few corners 9, cut 3)".
-QString unregisteredText(const RunCounts& counts) {
+/// "0.5 s could not be searched: 12 frames could not be registered (too few corners: 9, cut: 3)".
+QString unregisteredText(const RunRecord& run, const RunCounts& counts) {
     QStringList reasons;
     for (const ReasonCount& count : counts.reasons)
         reasons << tr("%1: %2").arg(QString::fromStdString(nameOf(count.fault, count.picture)),
                                     QLocale().toString(count.frames));
-    return tr("%1 could not be registered (%2)").arg(frames(counts.unregistered), reasons.join(QStringLiteral(", ")));
+    const double rate_hz = run.scale.frame_rate_hz > 0 ? run.scale.frame_rate_hz : run.sequence.frame_rate_hz;
+    return tr("%1 could not be searched: %2 could not be registered (%3)")
+        .arg(durationText(counts.unregistered / rate_hz), frames(counts.unregistered),
+             reasons.join(QStringLiteral(", ")));
 }
 
 }  // namespace
@@ -83,17 +86,21 @@ QString whyNoTracks(const RunFacts& facts) {
     return {};
 }
 
-QString runSummaryText(const RunRecord& run, const RunFacts& facts) {
+QString runSummaryText(const RunRecord& run, const RunFacts& facts, std::size_t events) {
     QStringList sentences;
     const int tracks = facts.counts.tracks;
-    if (tracks == 0)
+    if (tracks == 0) {
         sentences << tr("%1: no tracks. %2").arg(howItEnded(run, facts), whyNoTracks(facts));
-    else
-        sentences << tr("%1: %2.").arg(howItEnded(run, facts),
-                                       tracks == 1 ? tr("1 track") : tr("%1 tracks").arg(QLocale().toString(tracks)));
+    } else {
+        QStringList found{tracks == 1 ? tr("1 track") : tr("%1 tracks").arg(QLocale().toString(tracks))};
+        if (events > 0)
+            found << (events == 1 ? tr("1 event")
+                                  : tr("%1 events").arg(QLocale().toString(static_cast<qulonglong>(events))));
+        sentences << tr("%1: %2.").arg(howItEnded(run, facts), found.join(QStringLiteral(", ")));
+    }
     if (facts.state == RunState::finished && !run.message.empty())
         sentences << capitalised(QString::fromStdString(run.message)) + QLatin1Char('.');
-    if (facts.counts.unregistered > 0) sentences << unregisteredText(facts.counts) + QLatin1Char('.');
+    if (facts.counts.unregistered > 0) sentences << unregisteredText(run, facts.counts) + QLatin1Char('.');
     sentences << tr("Scale: %1.").arg(scaleText(run));
     if (run.rate_assumed)
         sentences << tr("Nobody said the frame rate: %1 per second are assumed, so times and speeds may be wrong.")

@@ -129,8 +129,13 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     labelling_ = new LabelWorkspace(
         {session_, *canvas_, *timeline_, *label_rows_, *messages_, *actions_, *docks_, keys_, *this});
     evaluation_->join(*labelling_);
-    new RunMessages(
+    auto* told = new RunMessages(
         session_, *messages_, *docks_, [this] { files_->locateVideo(); }, this);
+    const auto tell_events = [this, told] {
+        const auto& found = events_->review().found();
+        if (found && session_.currentRun()) told->tellEvents(*session_.currentRun(), found->events.size());
+    };
+    whenAny(events_, told, tell_events, &EventsDock::eventsShown);
     files_ =
         new OpenedFiles({session_, settings_, *actions_, *messages_, *guard_, *run_bar_, *welcome_, *canvas_, *this});
     live_ = new LiveWatching({session_, settings_, *actions_, *guard_, [this] { files_->rememberView(); }, *this});

@@ -36,24 +36,47 @@ RunMessages::RunMessages(ProjectSession& session, MessageBar& messages, DockRegi
 void RunMessages::wireRuns() {
     // A run of the former video may have been summarised meanwhile.
     whenChanged(session_, this,
-                {{SessionChange::opened, [this] { messages_.dismissTopic(kRunTopic); }},
-                 {SessionChange::run_preparing, [this] {
-                      // What was wrong with the former run, or kept this one from starting, is of
-                      // no use any more.
-                      messages_.dismiss(MessageKind::error);
-                      messages_.dismissTopic(kRunTopic);
-                  }}});
+                {{SessionChange::opened, [this] { forgetRun(); }}, {SessionChange::run_preparing, [this] {
+                                                                        // What was wrong with the former run, or kept
+                                                                        // this one from starting, is of no use any
+                                                                        // more.
+                                                                        messages_.dismiss(MessageKind::error);
+                                                                        forgetRun();
+                                                                    }}});
     connect(&session_, &ProjectSession::runSummarised, this, [this](const RunRecord& run, const RunFacts& facts) {
-        const bool doubtful = facts.counts.tracks == 0 || facts.state == RunState::failed;
-        messages_.showTopic(kRunTopic, doubtful ? MessageKind::warning : MessageKind::info, runSummaryText(run, facts),
-                            facts.counts.tracks > 0 ? tr("Show the tracks") : QString(),
-                            [this] { docks_.raise(DockId::tracks); });
+        summary_ = Summary{run, facts, {}};
+        showSummary();
     });
     connect(&session_, &ProjectSession::runRemoved, this, [this](const RunRecord& run) {
+        summary_.reset();
         messages_.showTopic(kRunTopic, MessageKind::info,
                             tr("Removed “%1”. It can be brought back until the project is closed.").arg(shownName(run)),
                             tr("Bring it back"), [this, id = run.id] { session_.restoreRun(id); });
     });
+}
+
+void RunMessages::forgetRun() {
+    summary_.reset();
+    events_ = {};
+    messages_.dismissTopic(kRunTopic);
+}
+
+void RunMessages::showSummary() {
+    const RunFacts& facts = summary_->facts;
+    const bool any_tracks = facts.counts.tracks > 0;
+    const std::size_t events = any_tracks && events_.run_id == summary_->run.id ? events_.count : 0;
+    const bool doubtful = !any_tracks || facts.state == RunState::failed;
+    const QString action = events > 0 ? tr("Review the events") : any_tracks ? tr("Show the tracks") : QString();
+    summary_->text = runSummaryText(summary_->run, facts, events);
+    messages_.showTopic(kRunTopic, doubtful ? MessageKind::warning : MessageKind::info, summary_->text, action,
+                        [this, dock = events > 0 ? DockId::events : DockId::tracks] { docks_.raise(dock); });
+}
+
+void RunMessages::tellEvents(int run_id, std::size_t count) {
+    if (events_.run_id == run_id && events_.count == count) return;
+    events_ = {run_id, count};
+    // What a person has sent away does not come back.
+    if (summary_ && summary_->run.id == run_id && messages_.texts().contains(summary_->text)) showSummary();
 }
 
 }  // namespace eyrie::ui

@@ -1,3 +1,4 @@
+#include <QDockWidget>
 #include <QFile>
 #include <QPushButton>
 #include <QTest>
@@ -6,6 +7,7 @@
 #include "canvas/timeline/timeline_view.h"
 #include "canvas/video_view.h"
 #include "label/label_workspace.h"
+#include "review/events/event_review.h"
 #include "review/events/event_thresholds.h"
 #include "review/events/events_dock.h"
 #include "review/events/events_panel.h"
@@ -15,6 +17,7 @@
 #include "widgets/message_bar.h"
 #include "window/docks/event_report.h"
 #include "window/main_window.h"
+#include "window/run_messages.h"
 #include "workspace/dock_registry.h"
 #include "workspace/window_actions.h"
 
@@ -91,6 +94,40 @@ class EventsWindowTest : public QObject {
         QVERIFY(!QFile::exists(at("stopped.html")));
         window->eventReport().write(at("no/where/r.html").toStdString(), true);
         QVERIFY(told(QStringLiteral("no/where")));
+    }
+
+    void theEndOfARunLeadsToItsEvents() {
+        const auto window = windowWithEvents();
+        QVERIFY(window);
+        const auto button = [&](const QString& text) -> QPushButton* {
+            for (auto* each : window->messages().findChildren<QPushButton*>())
+                if (each->text() == text) return each;
+            return nullptr;
+        };
+        window->messages().dismissAll();
+        RunFacts facts;
+        facts.counts.frames = 60;
+        facts.counts.tracks = 2;
+        const RunRecord run = *window->session().shownRun();
+        emit window->session().runSummarised(run, facts);
+        const auto found = window->events().review().found()->events.size();
+        QVERIFY2(window->messages().texts().front().contains(QStringLiteral("2 tracks, %1 events").arg(found)),
+                 qPrintable(window->messages().texts().front()));
+        window->docks().raise(DockId::tracks);
+        QTRY_VERIFY(window->docks().dock(DockId::events)->visibleRegion().isEmpty());
+        QVERIFY(button(tr("Review the events")) != nullptr);
+        button(tr("Review the events"))->click();
+        QTRY_VERIFY(!window->docks().dock(DockId::events)->visibleRegion().isEmpty());
+        // Found later, they are told as long as the message is there.
+        auto* messages = window->findChild<RunMessages*>();
+        emit window->session().runSummarised(run, facts);
+        messages->tellEvents(run.id, 0);
+        QVERIFY(button(tr("Show the tracks")) != nullptr);
+        messages->tellEvents(run.id, 7);
+        QVERIFY(window->messages().texts().front().contains(QStringLiteral("2 tracks, 7 events")));
+        window->messages().dismissAll();
+        messages->tellEvents(run.id, 8);
+        QVERIFY(window->messages().texts().isEmpty());
     }
 
     void escapeShowsTheWholeTimelineWhenNothingIsSelected() {
