@@ -11,7 +11,6 @@
 #include <algorithm>
 
 #include "canvas/layers/north_layer.h"
-#include "canvas/layers/score_layer.h"
 #include "canvas/layers/speed_layer.h"
 #include "canvas/layers/stages/cluster_layer.h"
 #include "canvas/layers/stages/corner_layer.h"
@@ -114,10 +113,10 @@ class MainWindowTest : public QObject {
         window.show();
         QVERIFY(QTest::qWaitForWindowActive(&window));
         const std::pair<Qt::Key, OverlayKind> keys[] = {
-            {Qt::Key_C, CornerLayer::kKind}, {Qt::Key_V, VectorLayer::kKind},     {Qt::Key_M, ClusterLayer::kKind},
-            {Qt::Key_R, RoiLayer::kKind},    {Qt::Key_D, DetectionLayer::kKind},  {Qt::Key_T, TrackLayer::kKind},
-            {Qt::Key_U, TruthLayer::kKind},  {Qt::Key_S, ImageStackLayer::kKind}, {Qt::Key_6, SpeedLayer::kKind},
-            {Qt::Key_7, ScoreLayer::kKind},  {Qt::Key_Z, ZoneLayer::kKind},       {Qt::Key_8, NorthLayer::kKind}};
+            {Qt::Key_C, CornerLayer::kKind},    {Qt::Key_V, VectorLayer::kKind},     {Qt::Key_M, ClusterLayer::kKind},
+            {Qt::Key_R, RoiLayer::kKind},       {Qt::Key_D, DetectionLayer::kKind},  {Qt::Key_T, TrackLayer::kKind},
+            {Qt::Key_U, TruthLayer::kKind},     {Qt::Key_S, ImageStackLayer::kKind}, {Qt::Key_6, SpeedLayer::kKind},
+            {Qt::Key_7, OverlayKind{"scores"}}, {Qt::Key_Z, ZoneLayer::kKind},       {Qt::Key_8, NorthLayer::kKind}};
         for (const auto& [key, kind] : keys) {
             const bool before = window.overlays().isVisible(kind);
             QTest::keyClick(&window, key, Qt::AltModifier);

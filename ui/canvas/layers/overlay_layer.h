@@ -17,7 +17,8 @@ namespace eyrie::ui {
 
 class CaptionPlacer;
 
-/// A kind of overlay. Every layer declares its own, `kKind`.
+/// A kind of overlay. Layers that others name declare their own, `kKind`; the others' stand in their rows of the
+/// overlay table.
 struct OverlayKind {
     std::string_view word;  ///< by which settings know it, so it stays
 

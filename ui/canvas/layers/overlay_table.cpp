@@ -3,7 +3,6 @@
 #include <QCoreApplication>
 
 #include "canvas/layers/north_layer.h"
-#include "canvas/layers/score_layer.h"
 #include "canvas/layers/speed_layer.h"
 #include "canvas/layers/stages/cluster_layer.h"
 #include "canvas/layers/stages/corner_layer.h"
@@ -18,6 +17,9 @@
 
 namespace eyrie::ui {
 
+// Layers that nothing else names are one file each.
+std::unique_ptr<OverlayLayer> scoreLayer();
+
 namespace {
 
 template <QColor OverlayColours::*colour>
@@ -29,11 +31,17 @@ QColor falseAlarmColour(const OverlayStyle& style) {
     return verdictColour(VerdictKind::false_alarm, style.palette);
 }
 
+OverlayRow row(OverlayKind kind, std::unique_ptr<OverlayLayer> (*make)(), const char* name, Qt::Key key, bool in_review,
+               bool in_label, bool in_tune, QColor (*colour)(const OverlayStyle&)) {
+    return {kind, name, key, in_review, in_label, in_tune, colour, make};
+}
+
+/// Of a layer with a header, since others name its kind.
 template <class Layer>
 OverlayRow row(const char* name, Qt::Key key, bool in_review, bool in_label, bool in_tune,
                QColor (*colour)(const OverlayStyle&)) {
     const auto make = [] { return std::unique_ptr<OverlayLayer>(std::make_unique<Layer>()); };
-    return {Layer::kKind, name, key, in_review, in_label, in_tune, colour, make};
+    return row(Layer::kKind, make, name, key, in_review, in_label, in_tune, colour);
 }
 
 }  // namespace
@@ -60,8 +68,8 @@ const std::vector<OverlayRow>& overlayTable() {
                         paletteColour<&Colours::track>),
         row<SpeedLayer>(QT_TRANSLATE_NOOP("Overlay", "S&peeds of tracks"), Qt::Key_6, false, false, false,
                         paletteColour<&Colours::track>),
-        row<ScoreLayer>(QT_TRANSLATE_NOOP("Overlay", "Scores of trac&ks"), Qt::Key_7, false, false, false,
-                        paletteColour<&Colours::track>),
+        row({"scores"}, scoreLayer, QT_TRANSLATE_NOOP("Overlay", "Scores of trac&ks"), Qt::Key_7, false, false, false,
+            paletteColour<&Colours::track>),
         row<ImageStackLayer>(QT_TRANSLATE_NOOP("Overlay", "Image &stacks"), Qt::Key_S, false, false, false,
                              paletteColour<&Colours::stack>),
         row<VerdictLayer>(QT_TRANSLATE_NOOP("Overlay", "Errors (found, missed, false)"), Qt::Key_Q, false, false, true,
