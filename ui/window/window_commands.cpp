@@ -1,11 +1,13 @@
 #include "window/window_commands.h"
 
+#include <QInputDialog>
 #include <QMainWindow>
 #include <QMessageBox>
 
 #include "canvas/video_view.h"
 #include "chain/recording/run_recorder.h"
 #include "label/label_workspace.h"
+#include "session/project/person_name.h"
 #include "session/project_session.h"
 #include "tune/inspect/inspection.h"
 #include "widgets/wiring.h"
@@ -122,13 +124,24 @@ void WindowCommands::showFullScreen(bool on) {
 
 void WindowCommands::bindHelp() {
     const WindowActions& actions = parts_.actions;
-    bindCommands(this, {{actions.keys, [this] { showKeys(); }}, {actions.about, [this] { showAbout(); }}});
+    bindCommands(this, {{actions.keys, [this] { showKeys(); }},
+                        {actions.about, [this] { showAbout(); }},
+                        {actions.your_name, [this] { askForName(); }}});
 }
 
 void WindowCommands::showKeys() {
     auto* sheet = new KeySheet(parts_.keys, parts_.labelling.active() ? tr("Label") : QString(), &parts_.window);
     sheet->setAttribute(Qt::WA_DeleteOnClose);
     sheet->show();
+}
+
+void WindowCommands::askForName() {
+    bool accepted = false;
+    const QString name = QInputDialog::getText(
+        &parts_.window, tr("Your name"),
+        tr("Kept with what you judge, check and correct from now on.\nEmpty: the name of your account."),
+        QLineEdit::Normal, personName(), &accepted);
+    if (accepted) setPersonName(name);
 }
 
 void WindowCommands::showAbout() {

@@ -49,6 +49,7 @@ class WindowCommands : public QObject {
     void showFullScreen(bool on);
     void showKeys();
     void showAbout();
+    void askForName();
 
     CommandParts parts_;
 };

@@ -36,6 +36,8 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
                                              {QKeySequence(tr("Ctrl+Shift+R"))},
                                              QT_TR_NOOP("Write the evaluation as one HTML or PDF file")});
     demo = add(tr("Watch the &demo scene"), {"media-playback-start", {QKeySequence(tr("Ctrl+D"))}});
+    your_name = add(tr("Your &name…"),
+                    {"user-identity", {}, QT_TR_NOOP("The name that is kept with what you judge, check and correct")});
     quit = add(tr("&Quit"), {"application-exit", {QKeySequence(tr("Ctrl+Q"))}});
 
     section(tr("Ru&n"));

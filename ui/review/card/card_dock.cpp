@@ -56,6 +56,7 @@ std::optional<CardSubject> CardDock::subjectOf(int id) const {
     subject.event = id;
     subject.note = entry->note;
     subject.tags = parts_.events.tagsOn(id);
+    subject.judged = judgedText(entry->judgement, entry->person, entry->judged_utc);
     subject.track = event != nullptr && !event->tracks.empty() ? event->tracks.front() : 0;
     subject.frame = found->frameAt(entry->position);
     return subject;

@@ -37,6 +37,9 @@ EventCard::EventCard(QWidget* parent) : QWidget(parent), loop_(kChipPeriod_ms, [
     tags_->setMaxLength(kLongestNote);
     tags_->setPlaceholderText(tr("Tags: gate 3, lorry"));
     tags_->setAccessibleName(tr("Tags"));
+    judged_ = new QLabel;
+    judged_->setWordWrap(true);
+    judged_->setTextFormat(Qt::PlainText);
     auto* card = new QWidget;
     auto* grid = new QGridLayout(card);
     grid->setContentsMargins(6, 6, 6, 6);
@@ -47,8 +50,9 @@ EventCard::EventCard(QWidget* parent) : QWidget(parent), loop_(kChipPeriod_ms, [
     grid->addWidget(speed_, 2, 0, 1, 2);
     grid->addWidget(note_, 3, 0, 1, 2);
     grid->addWidget(tags_, 4, 0, 1, 2);
+    grid->addWidget(judged_, 5, 0, 1, 2);
     grid->setRowStretch(2, 4);
-    grid->setRowStretch(5, 1);
+    grid->setRowStretch(6, 1);
     grid->setColumnStretch(1, 1);
     stack_ = new QStackedLayout(this);
     stack_->addWidget(empty);
@@ -85,6 +89,8 @@ void EventCard::show(const std::optional<CardSubject>& subject) {
     note_->setCursorPosition(0);
     tags_->setVisible(subject->event != 0);
     tags_->setText(subject->tags);
+    judged_->setVisible(!subject->judged.isEmpty());
+    judged_->setText(subject->judged);
 }
 
 void EventCard::setStory(const std::shared_ptr<const VehicleStory>& story, const SceneScale& scale) {

@@ -233,8 +233,7 @@ QString EventsDock::markText(int id) const {
     if (Bookmarks::isBookmark(id)) return bookmarks_->markText(id);
     const auto place = placeOf(id);
     if (!place || !model_->found()) return {};
-    const QString verdict = judgementText(model_->recordAt(static_cast<int>(*place))->judgement);
-    return eventTipText(*model_->found(), *place) + (verdict.isEmpty() ? QString() : QLatin1Char('\n') + verdict);
+    return model_->tipOf(*model_->recordAt(static_cast<int>(*place)));
 }
 
 void EventsDock::enableActions() {

@@ -13,6 +13,8 @@ void takeOver(EventEntry& entry, const Verdict* verdict) {
     entry.judgement = verdict != nullptr ? verdict->judgement : Judgement::open;
     entry.starred = verdict != nullptr && verdict->starred;
     entry.note = verdict != nullptr ? QString::fromStdString(verdict->note) : QString();
+    entry.person = verdict != nullptr ? QString::fromStdString(verdict->person) : QString();
+    entry.judged_utc = verdict != nullptr ? verdict->when_utc : std::string();
 }
 
 }  // namespace
@@ -22,7 +24,7 @@ void EventsModel::setEvents(const std::shared_ptr<const FoundEvents>& found,
     std::vector<EventEntry> entries;
     std::map<EventIdentity, int> doubles;
     for (std::size_t i = 0; found && i < found->queue.size(); ++i) {
-        entries.push_back({idAt(*found, i, doubles), i, Judgement::open, false, {}});
+        entries.push_back({idAt(*found, i, doubles), i, Judgement::open, false, {}, {}, {}});
         takeOver(entries.back(), verdict_at(i));
     }
     found_ = found;
@@ -67,7 +69,7 @@ QVariant EventsModel::data(const QModelIndex& index, int role) const {
         case Qt::EditRole:
             return column == note_column ? QVariant(entry->note) : QVariant();
         case Qt::ToolTipRole:
-            return eventTipText(*found_, entry->position);
+            return tipOf(*entry);
         case Qt::DecorationRole:
             return column == kind_column ? QVariant(judgementIcon(entry->judgement, dark_)) : QVariant();
         case Qt::TextAlignmentRole:
@@ -81,6 +83,11 @@ QVariant EventsModel::data(const QModelIndex& index, int role) const {
         default:
             return {};
     }
+}
+
+QString EventsModel::tipOf(const EventEntry& entry) const {
+    const QString said = judgedText(entry.judgement, entry.person, entry.judged_utc);
+    return eventTipText(*found_, entry.position) + (said.isEmpty() ? QString() : QLatin1Char('\n') + said);
 }
 
 QString EventsModel::textOf(const EventEntry& entry, int column) const {
