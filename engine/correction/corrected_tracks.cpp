@@ -217,7 +217,7 @@ class Workbench {
 
 const char* nameOf(CorrectionState state) {
     constexpr std::array<const char*, 5> kNames = {"applied", "covered by the run's own", "no such track near",
-                                                   "the tracks are in different places at one time",
+                                                   "the tracks are in different places at the same time",
                                                    "not searched by this run"};
     return kNames.at(static_cast<std::size_t>(state));
 }

@@ -5,7 +5,7 @@
 namespace eyrie {
 
 FoundMetadata metadataOf(const FrameSource& source, const std::stop_token& stop, const IndexProgress& progress) {
-    FoundMetadata found{nullptr, "it is no video file, so it carries no metadata (KLV)", {}, source.info().parts};
+    FoundMetadata found{nullptr, "it is not a video file, so it carries no metadata (KLV)", {}, source.info().parts};
     try {
         const std::vector<PictureStamp> pictures = source.pictureStamps();
         if (pictures.empty()) return found;

@@ -82,7 +82,7 @@ void CardDock::showSelection() {
     const TrackSummary* summary = parts_.session.trackSummary(*track);
     CardSubject subject;
     subject.title = summary != nullptr && summary->doubtful
-                        ? tr("Track %1 · left out of the result for its score; its way is not worked out").arg(*track)
+                        ? tr("Track %1 · left out of the result for its score; its path is not worked out").arg(*track)
                         : tr("Track %1").arg(*track);
     subject.track = *track;
     subject.frame = parts_.session.currentFrame();

@@ -20,7 +20,7 @@ constexpr int kSpeedLines = 9;  ///< greatest height of the sketch of the speed,
 
 EventCard::EventCard(QWidget* parent) : QWidget(parent), loop_(kChipPeriod_ms, [this] { nextChip(); }) {
     auto* empty = new EmptyState;
-    empty->setTexts(tr("Select an event or a track: its vehicle in a loop, its speed and its way are shown here."));
+    empty->setTexts(tr("Select an event or a track: its vehicle in a loop, its speed and its path are shown here."));
     title_ = new QLabel;
     title_->setWordWrap(true);
     picture_ = new QLabel;

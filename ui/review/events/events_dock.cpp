@@ -195,7 +195,7 @@ void EventsDock::explainNothing() {
         case EventReview::State::found:
             text = review_->found()->run->tracks.empty() && parts_.session.runData()
                        ? whyNoTracks(parts_.session.runData()->facts)
-                       : tr("Nothing that happened is an event by these limits.");
+                       : tr("Nothing that happened counts as an event with these limits.");
             break;
     }
     panel_->emptyState()->setTexts(text);

@@ -136,8 +136,8 @@ QVariant EventsModel::headerData(int section, Qt::Orientation orientation, int r
     const bool tip = role == Qt::ToolTipRole;
     switch (section) {
         case number_column:
-            return tip ? tr("Number of the event, as eyrie-cli has it with the same limits. ★: starred. The list "
-                            "stands in the order in which to look; a third click on a heading brings that back")
+            return tip ? tr("Number of the event, as eyrie-cli lists it with the same limits. ★: starred. The list is "
+                            "in the order in which to review it; a third click on a heading brings that back")
                        : tr("#");
         case time_column:
             return tip ? tr("When it begins") : tr("Time");
