@@ -49,11 +49,12 @@ StartOptions readOptions(const QCoreApplication& application, int argc, char** a
                        "With a project: shows its runs. With neither: shows the built-in demo scene."));
     parser.addHelpOption();
     parser.addVersionOption();
-    parser.addPositionalArgument(QStringLiteral("input"),
-                                 QStringLiteral("Video, or several files that are one video in a row; folder of "
-                                                "images; address of a live source (udp://, rtsp:// and others); or "
-                                                "project (.eyrie)."),
-                                 QStringLiteral("[VIDEO…|ADDRESS|PROJECT]"));
+    parser.addPositionalArgument(
+        QStringLiteral("input"),
+        QStringLiteral("Video, or several files that count as one video, in their order; folder of "
+                       "images; address of a live source (udp://, rtsp:// and others); or "
+                       "project (.eyrie)."),
+        QStringLiteral("[VIDEO…|ADDRESS|PROJECT]"));
     const QCommandLineOption gsd(QStringLiteral("gsd"), QStringLiteral("Ground sampling distance, metres per pixel."),
                                  QStringLiteral("m"));
     const QCommandLineOption rate(QStringLiteral("fps"), QStringLiteral("Frames per second, for folders of images."),
@@ -70,7 +71,7 @@ StartOptions readOptions(const QCoreApplication& application, int argc, char** a
                                         QStringLiteral("Write a picture of the window and quit."),
                                         QStringLiteral("file"));
     const QCommandLineOption after(QStringLiteral("after-frames"),
-                                   QStringLiteral("… once this many frames with results were shown (1)."),
+                                   QStringLiteral("Frames with results to show before that picture is written (1)."),
                                    QStringLiteral("n"), QStringLiteral("1"));
     parser.addOptions({gsd, rate, demo, run, empty, theme, workspace, screenshot, after});
     parser.process(application);

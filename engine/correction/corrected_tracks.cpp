@@ -258,7 +258,7 @@ const char* nameOf(CorrectionState state) {
     constexpr std::array<const char*, 6> kNames = {"applied",
                                                    "covered by the run's own",
                                                    "no such track near",
-                                                   "the tracks are in different places at one time",
+                                                   "the tracks are in different places at the same time",
                                                    "not searched by this run",
                                                    "not found by this run"};
     return kNames.at(static_cast<std::size_t>(state));

@@ -19,7 +19,7 @@ RunRecord existingRun(const RunStore& store, int id) {
     const auto run = store.run(id);
     if (!run) throw Error(ErrorKind::parameter, "The project has no run " + std::to_string(id) + ".");
     if (run->frames_done == 0)
-        throw Error(ErrorKind::input, "The run has no frame yet. Let it work, or choose another run.");
+        throw Error(ErrorKind::input, "The run has no frame yet. Let it go on, or choose another run.");
     return *run;
 }
 

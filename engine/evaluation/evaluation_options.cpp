@@ -57,7 +57,7 @@ void check(const EvaluationOptions& options) {
     }
     if (options.vehicles_only && options.one_class && options.one_class != TrackClass::vehicle) {
         throw Error(ErrorKind::parameter, "vehicles only, and " + wordOfScored(options.one_class) +
-                                              " only: nothing counts; choose one of both");
+                                              " only: nothing counts; choose one of the two");
     }
     if (options.frame_count && *options.frame_count < 1) {
         throw Error(ErrorKind::parameter,

@@ -7,84 +7,84 @@ void describeMotion(EventOptions& options, const ParameterDeclarer& declare) {
     declare.real(
         "events.smooth", options.smooth_s, 0.1, 10,
         {"s",
-         "Speeds and directions are those over so long a time. Longer: steadier, but short stops and turns are "
-         "blurred.",
+         "Speeds and directions are measured over this time. Longer: steadier, but short stops and turns are blurred.",
          ""});
     declare.real("events.noise", options.noise_px, 0, 10,
                  {"px",
-                  "How far boxes stray from their vehicles (standard deviation). What moves no faster than this could "
-                  "pretend is taken to stand.",
+                  "How far boxes stray from their vehicles (standard deviation). What moves no faster than that alone "
+                  "could make it seem counts as standing.",
                   ""});
     declare.real("events.standing_speed", options.standing_speed_kmh, 0, 50,
-                 {"km/h", "A vehicle that drove stands once it is slower than this.", ""});
-    declare.real(
-        "events.moving_speed", options.moving_speed_kmh, 0, 100,
-        {"km/h",
-         "A vehicle that stood drives once it was faster than this, from when it passed standing_speed. Between the "
-         "two it goes on with what it did.",
-         ""});
+                 {"km/h", "A driving vehicle counts as standing once it is slower than this.", ""});
+    declare.real("events.moving_speed", options.moving_speed_kmh, 0, 100,
+                 {"km/h",
+                  "A standing vehicle counts as driving once it is faster than this, from the moment it passed "
+                  "standing_speed. Between the two it stays what it was.",
+                  ""});
     declare.real("events.min_standing", options.min_standing_s, 0, 60,
                  {"s", "Shorter standstills are neither stops nor starts.", ""});
-    declare.real("events.min_way", options.min_way_m, 0, 100,
-                 {"m", "A vehicle that moves less than this between two standstills has stood all the time.", ""});
+    declare.real(
+        "events.min_way", options.min_way_m, 0, 100,
+        {"m", "A vehicle that moves less than this between two standstills counts as standing all the time.", ""});
 }
 
 void describeBorder(EventOptions& options, const ParameterDeclarer& declare) {
-    declare.real(
-        "events.border_time", options.border_time_s, 0, 10,
-        {"s",
-         "A track that would reach the border of the picture within this time has left, not been lost. Longer: "
-         "fewer are lost.",
-         ""});
+    declare.real("events.border_time", options.border_time_s, 0, 10,
+                 {"s",
+                  "A track that would reach the border of the picture within this time counts as having left, not as "
+                  "lost. Longer: fewer are lost.",
+                  ""});
     declare.real("events.border_distance", options.border_distance_m, 0, 50,
-                 {"m", "A box that comes as near to the border as this lies at it.", ""});
-    declare.real(
-        "events.edge_time", options.edge_time_s, 0, 60,
-        {"s",
-         "Tracks that begin or end in mid-picture so soon after the beginning or before the end of what could be "
-         "searched neither appear nor get lost.",
-         ""});
+                 {"m", "A box this close to the border of the picture counts as lying at it.", ""});
+    declare.real("events.edge_time", options.edge_time_s, 0, 60,
+                 {"s",
+                  "A track that begins in mid-picture this soon after the start of what could be searched does not "
+                  "count as appearing, and one that ends there this soon before its end does not count as lost.",
+                  ""});
 }
 
 void describeOne(EventOptions& options, const ParameterDeclarer& declare) {
-    declare.real("events.stands", options.stands_s, 0, 3600, {"s", "Shortest standstill that is told as such.", ""});
+    declare.real("events.stands", options.stands_s, 0, 3600, {"s", "Shortest standstill that counts as an event.", ""});
     declare.real("events.turn_back_angle", options.turn_back_angle_deg, 90, 180,
                  {"degrees", "Directions before and after turning back differ by at least this.", ""});
     declare.real("events.turn_back_time", options.turn_back_time_s, 1, 600,
-                 {"s", "Longest time from the one direction to the other; standing in between counts.", ""});
+                 {"s", "Longest time from one direction to the other, standstills in between included.", ""});
     declare.real("events.turn_back_way", options.turn_back_way_m, 0, 200,
-                 {"m", "How far the vehicle drives in either direction at least.", ""});
+                 {"m", "Shortest distance that the vehicle drives in each direction.", ""});
     declare.real("events.turn_back_offset", options.turn_back_offset_m, 0, 500,
-                 {"m", "How far beside its first way the vehicle comes back at most; more is a loop or a bend.", ""});
-    declare.real("events.over", options.over_kmh, 1, 400, {"km/h", "Speed above which a vehicle is told as fast.", ""});
-    declare.real("events.over_time", options.over_time_s, 0, 600, {"s", "For at least so long.", ""});
+                 {"m", "Largest distance between the way out and the way back; more is a loop or a bend.", ""});
+    declare.real("events.over", options.over_kmh, 1, 400, {"km/h", "Speed above which a vehicle counts as fast.", ""});
+    declare.real("events.over_time", options.over_time_s, 0, 600, {"s", "For at least this long.", ""});
     declare.real("events.under", options.under_kmh, 0, 400,
-                 {"km/h", "Speed below which a vehicle that moves is told as slow.", ""});
-    declare.real("events.under_time", options.under_time_s, 0, 600, {"s", "For at least so long.", ""});
+                 {"km/h", "Speed below which a moving vehicle counts as slow.", ""});
+    declare.real("events.under_time", options.under_time_s, 0, 600, {"s", "For at least this long.", ""});
     declare.real("events.loiter_radius", options.loiter_radius_m, 1, 1000,
-                 {"m", "A vehicle loiters that stays within such a circle …", ""});
-    declare.real("events.loiter_time", options.loiter_time_s, 1, 3600,
-                 {"s", "… for at least so long, and drives at least twice the circle's diameter meanwhile.", ""});
+                 {"m", "A vehicle that stays within a circle of this radius for events.loiter_time loiters.", ""});
+    declare.real(
+        "events.loiter_time", options.loiter_time_s, 1, 3600,
+        {"s", "Shortest time that it stays within that circle, driving at least twice the circle's diameter meanwhile.",
+         ""});
 }
 
 void describeOthers(EventOptions& options, const ParameterDeclarer& declare) {
     declare.real(
         "events.flow_radius", options.flow_radius_m, 0.5, 50,
-        {"m", "Tracks that pass a place within this distance tell its direction. More than half a lane mixes lanes.",
+        {"m",
+         "Tracks that pass a place within this distance determine its direction. More than half a lane mixes lanes.",
          ""});
     declare.integer("events.flow_tracks", options.flow_tracks, 1, 1000,
-                    {"tracks", "The direction of a place is known once so many other tracks agree on it.", ""});
+                    {"tracks", "The direction of a place is known once this many other tracks agree on it.", ""});
     declare.real(
         "events.flow_share", options.flow_share, 0, 1,
         {"", "Largest share of the tracks of a place that go the same way as one that drives against the flow.", ""});
     declare.real("events.against_angle", options.against_angle_deg, 90, 180,
                  {"degrees", "Directions that differ by more than this are against each other.", ""});
     declare.real("events.flow_way", options.flow_way_m, 0, 500,
-                 {"m", "How far a vehicle drives against the flow, or off it, at least.", ""});
+                 {"m", "Shortest distance that a vehicle drives against the flow, or off it.", ""});
     declare.real("events.off_flow", options.off_flow_m, 1, 100,
-                 {"m", "A vehicle has left the flow where no other came as near as this.", ""});
+                 {"m", "A vehicle has left the flow where no other came this close.", ""});
     declare.real("events.off_flow_seen", options.off_flow_seen_s, 0, 3600,
-                 {"s", "Such a place must have been in the picture for at least so long.", ""});
+                 {"s", "Such a place must have been in the picture for at least this long.", ""});
     declare.integer("events.convoy_vehicles", options.convoy_vehicles, 2, 100,
                     {"", "Fewest vehicles of a convoy.", ""});
     declare.real("events.convoy_time", options.convoy_time_s, 1, 3600,
@@ -93,9 +93,11 @@ void describeOthers(EventOptions& options, const ParameterDeclarer& declare) {
                  {"s", "Longest time from one vehicle passing a place to the next.", ""});
     declare.real("events.convoy_lane", options.convoy_lane_m, 0.5, 50,
                  {"m", "How far beside the way of the vehicle ahead the next one may drive.", ""});
-    declare.real(
-        "events.convoy_spread", options.convoy_spread, 0, 10,
-        {"", "By which share the time between two vehicles of a convoy may vary. More: traffic is a convoy, too.", ""});
+    declare.real("events.convoy_spread", options.convoy_spread, 0, 10,
+                 {"",
+                  "Share by which the time between two vehicles of a convoy may vary. More: ordinary traffic counts as "
+                  "a convoy, too.",
+                  ""});
     declare.real("events.meeting_distance", options.meeting_distance_m, 0, 100,
                  {"m", "Largest gap between two vehicles that meet.", ""});
     declare.real("events.meeting_time", options.meeting_time_s, 0, 3600,
@@ -103,8 +105,7 @@ void describeOthers(EventOptions& options, const ParameterDeclarer& declare) {
     declare.real(
         "events.meeting_angle", options.meeting_angle_deg, 0, 180,
         {"degrees",
-         "Directions from which they came differ by at least this. 0: whoever stands in a queue meets the next "
-         "one.",
+         "Directions from which they came differ by at least this. 0: each vehicle in a queue meets the next one.",
          ""});
 }
 
@@ -116,12 +117,11 @@ void EventOptions::describe(ParameterVisitor& visitor) {
     describeBorder(*this, declare);
     describeOne(*this, declare);
     describeOthers(*this, declare);
-    declare.real(
-        "events.zone_margin", zone_margin_m, 0, 50,
-        {"m",
-         "How far a vehicle must come over the edge of a zone or a line to have passed it. More: standing on the "
-         "edge counts less often.",
-         ""});
+    declare.real("events.zone_margin", zone_margin_m, 0, 50,
+                 {"m",
+                  "How far a vehicle must go beyond the edge of a zone or a line to have passed it. More: standing on "
+                  "the edge counts less often.",
+                  ""});
 }
 
 }  // namespace eyrie

@@ -163,7 +163,7 @@ LabelImport planImport(LabelFile labels, const SequenceRecord& sequence, const C
     ImportedLabels imported = annotationsOf(labels);
     result.notes = imported.notes;
     if (behind > 0) {
-        result.notes.push_back(std::to_string(behind) + " boxes lie behind the video's last frame, " +
+        result.notes.push_back(std::to_string(behind) + " boxes lie after the video's last frame, " +
                                std::to_string(sequence.frame_count - 1) + ", and were left out; is the shift right?");
     }
     if (result.loose.boxes > 0) {

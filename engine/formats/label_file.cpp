@@ -107,7 +107,7 @@ LabelReport reportOn(const LabelFile& labels) {
     for (const LabelledObject& object : labels.objects) report.keyframes += static_cast<int>(object.keyframes.size());
     if (labels.not_filled > 0) {
         report.notes.push_back(std::to_string(labels.not_filled) +
-                               " more boxes between keyframes lie far behind the video's end and are not counted");
+                               " more boxes between keyframes lie far beyond the video's end and are not counted");
     }
     if (report.outside > 0) {
         report.notes.push_back(std::to_string(report.outside) + " boxes have their centre outside the image" +

@@ -29,7 +29,7 @@ std::optional<double> lengthOf(const TrackWorld& world, const LabelBox& box, cv:
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const char* format, const char* what,
                          const std::string& why) {
-    throw Error(ErrorKind::input, path.string() + ": " + format + " needs to know " + what + ", which nothing tells: " +
+    throw Error(ErrorKind::input, path.string() + ": " + format + " needs to know " + what + ", which is not known: " +
                                       (why.empty() ? "only runs of a project have such" : why));
 }
 

@@ -150,7 +150,7 @@ std::string VideoClock::origin() const {
                 (odd_stamps_ == 1 ? " stamp that disagrees" : " stamps that disagree");
     if (silent_parts_ > 0)
         text += "; " + std::to_string(silent_parts_) +
-                (silent_parts_ == 1 ? " part of which nothing tells follows" : " parts of which nothing tells follow") +
+                (silent_parts_ == 1 ? " part with no known start follows" : " parts of which nothing tells follow") +
                 " without a gap";
     return text;
 }

@@ -6,7 +6,7 @@ namespace eyrie {
 
 FoundMetadata metadataOf(const FrameSource& source, const std::stop_token& stop, const IndexProgress& progress) {
     FoundMetadata found{nullptr,
-                        "it is no video file, so it carries no metadata (KLV)",
+                        "it is not a video file, so it carries no metadata (KLV)",
                         {},
                         source.info().parts,
                         source.info().created_utc_us};

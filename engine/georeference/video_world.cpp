@@ -24,7 +24,7 @@ VideoWorld videoWorldOf(const FoundMetadata& found, GeoFootage footage, std::opt
     world.no_places = found.why_not;
     if (found.metadata && !world.places.known()) {
         world.places = GeoReference(found.metadata->timeline(), std::move(footage));
-        world.no_places = "its metadata (KLV) tell no place of the picture on the ground that can be believed";
+        world.no_places = "its metadata (KLV) give no plausible place of the picture on the ground";
     }
     if (world.places.known())
         world.no_places.clear();

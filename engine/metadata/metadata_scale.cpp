@@ -34,7 +34,7 @@ MetadataScale scaleByMetadata(const MetadataTimeline& timeline, const FrameSourc
     }
     scale.frames_known = static_cast<int>(known.size());
     if (known.empty()) {
-        scale.why_not = "they tell no scale";
+        scale.why_not = "they give no scale";
         return scale;
     }
     std::sort(known.begin(), known.end());
@@ -44,7 +44,7 @@ MetadataScale scaleByMetadata(const MetadataTimeline& timeline, const FrameSourc
         scale.why_not = "only " + std::to_string(scale.frames_known) + " of " + std::to_string(scale.frames_asked) +
                         " frames looked at have a scale";
     } else if (median < kFinest || median > kCoarsest) {
-        scale.why_not = fixedText(median, 4) + " m/px is beyond belief";
+        scale.why_not = fixedText(median, 4) + " m/px is implausible";
     } else if (high > kSpread * low) {
         scale.why_not = "the scale changes from " + fixedText(low, 4) + " to " + fixedText(high, 4) + " m/px";
     } else {

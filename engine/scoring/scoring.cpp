@@ -26,7 +26,7 @@ void keepFrames(GroundTruth& truth, const ScoredFrames& covered) {
         }
         throw Error(ErrorKind::input, truth.name + ": holds no box in the frames to be measured, " +
                                           rangeText(covered) + ", " + known +
-                                          "; is it the truth of this video, and does it count frames alike?");
+                                          "; is it the ground truth of this video, and does it count frames alike?");
     }
     const std::size_t all = truth.boxes.size();
     if (within.size() < all) {

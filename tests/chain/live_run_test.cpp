@@ -216,7 +216,7 @@ TEST_F(LiveRuns, WhatMayNotBeWrittenIsToldBeforeItWaitsForTheSource) {
         FAIL() << "the film would be lost";
     } catch (const Error& error) {
         EXPECT_EQ(error.kind(), ErrorKind::output);
-        EXPECT_THAT(error.what(), testing::HasSubstr("is there already"));
+        EXPECT_THAT(error.what(), testing::HasSubstr("exists already"));
     }
     wanted.stream.recording = folder_ / "absent/live.ts";
     EXPECT_THROW(LiveRun(wanted, {}), Error);

@@ -190,7 +190,7 @@ TEST_F(Batches, stopsWhenAskedAndSaysSo) {
     kill(process.pid(), SIGTERM);
     const auto result = process.wait();
     EXPECT_EQ(result.exit_code, 130);
-    EXPECT_THAT(result.errors, HasSubstr("the same command goes on"));
+    EXPECT_THAT(result.errors, HasSubstr("the same command continues"));
     EXPECT_THAT(inState("stopped"), ElementsAre("a.mp4"));
     EXPECT_TRUE(runsOf("out/b.eyrie").empty());
     EXPECT_EQ(batch().exit_code, 0);

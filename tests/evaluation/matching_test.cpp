@@ -106,7 +106,7 @@ TEST(Matching, UprightComparesEnclosingBoxes) {
     EXPECT_EQ(countsOf(boxes({truth}), boxes({result}), options), (Counts{1, 0, 0}));
 }
 
-TEST(Matching, IgnoredObjectsForgiveWhatTouchesThem) {
+TEST(Matching, ResultsThatTouchIgnoredObjectsAreNoFalseAlarms) {
     const BoxesByFrame truth = boxes({car(0, 1, 100), ignored(car(0, 2, 200))});
     EXPECT_EQ(countsOf(truth, boxes({detection(100), detection(219)}), at(0.1)), (Counts{1, 0, 0}));
     EXPECT_EQ(countsOf(truth, boxes({detection(100), detection(221)}), at(0.1)), (Counts{1, 1, 0}));
@@ -189,7 +189,7 @@ TEST(Matching, ClassesToBeMeasuredAreWords) {
     EXPECT_THROW(check(options), Error);
 }
 
-TEST(Matching, TrackEvalForgivesNothing) {
+TEST(Matching, ForTrackEvalResultsOnIgnoredObjectsAreFalseAlarms) {
     EvaluationOptions options = at(0.1);
     options.convention = Convention::trackeval;
     const BoxesByFrame truth = boxes({car(0, 1, 100), ignored(car(0, 2, 200))});

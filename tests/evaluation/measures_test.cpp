@@ -447,7 +447,7 @@ TEST(DetectionMeasures, OneObjectIsEnoughForAllOfThem) {
     EXPECT_EQ(twice.tracking->mota_soft, 0);
 }
 
-TEST(DetectionMeasures, ForgivenAndLeftOutResultsAreCountedTogether) {
+TEST(DetectionMeasures, IgnoredAndLeftOutResultsAreCountedTogether) {
     const BoxesByFrame truth = boxes({car(0, 1, 100), ignored(car(0, 2, 60))});
     EvaluationOptions options = at(0.5);
     options.border = 3;

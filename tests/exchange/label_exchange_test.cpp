@@ -52,7 +52,7 @@ TEST_F(LabelExchange, APlanChangesNothingUntilItIsApplied) {
     EXPECT_TRUE(store.annotations().objects.empty());
     EXPECT_EQ(plan.objects, 1);
     EXPECT_EQ(plan.boxes, 20);
-    EXPECT_THAT(plan.notes, Contains(HasSubstr("4 boxes lie behind the video's last frame, 19")));
+    EXPECT_THAT(plan.notes, Contains(HasSubstr("4 boxes lie after the video's last frame, 19")));
     EXPECT_THAT(plan.notes, Contains(HasSubstr("never registered")));
     store.apply(plan.edit);
     ASSERT_TRUE(store.annotations().objects.contains(4));
@@ -88,13 +88,13 @@ TEST_F(LabelExchange, KeyframesFarBehindTheVideoCostNothing) {
     EXPECT_LT(labels.boxes.size(), 20'000u);
     ASSERT_TRUE(labels.boxes.contains(far)) << "what is said of a frame is there";
     EXPECT_EQ(labels.boxes.size() + static_cast<std::size_t>(labels.not_filled), all.boxes.size());
-    EXPECT_THAT(reportOn(labels).notes, Contains(HasSubstr("far behind the video's end")));
+    EXPECT_THAT(reportOn(labels).notes, Contains(HasSubstr("far beyond the video's end")));
 
     AnnotationStore store(project_, sequence_.id);
     const LabelImport few = planImport(labels, sequence_, {}, store, 0.45);
     const LabelImport plan = planImport(all, sequence_, {}, store, 0.45);
     EXPECT_EQ(few.notes, plan.notes);
-    EXPECT_THAT(few.notes, Contains(HasSubstr("899981 boxes lie behind the video's last frame")));
+    EXPECT_THAT(few.notes, Contains(HasSubstr("899981 boxes lie after the video's last frame")));
     EXPECT_EQ(few.boxes, 20);
     ASSERT_EQ(few.edit.objects.size(), 1u);
     const std::vector<Keyframe>& keyframes = few.edit.objects[0].after->keyframes;

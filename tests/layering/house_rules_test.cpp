@@ -1,4 +1,4 @@
-// How much a folder, a class and the wiring of the window may grow.
+// How much a folder, a class and the wiring of the window may grow, and how texts are written.
 #include <gtest/gtest.h>
 
 #include <cctype>
@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "support/places.h"
 
@@ -47,6 +48,27 @@ std::string classOfDefinition(const std::string& line) {
     return is_class ? line.substr(begin, colons - begin) : std::string();
 }
 
+/// The texts between quotes on a line of C++, as they stand there; none of a comment.
+std::vector<std::string> textsOf(const std::string& line) {
+    std::vector<std::string> texts;
+    bool inside = false;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        if (!inside && line.compare(i, 2, "//") == 0) break;
+        if (!inside && line.compare(i, 3, "'\"'") == 0) {
+            i += 2;
+            continue;
+        }
+        if (line[i] == '"') {
+            inside = !inside;
+            if (inside) texts.emplace_back();
+        } else if (inside) {
+            texts.back() += line[i];
+            if (line[i] == '\\' && i + 1 < line.size()) texts.back() += line[++i];
+        }
+    }
+    return texts;
+}
+
 }  // namespace
 
 // With its header it is in three files at most, beside the one that says what all classes of a room remember.
@@ -72,6 +94,24 @@ TEST(HouseRules, atMost200SignalsAreConnectedOneByOneOutsideTheSession) {
     });
     EXPECT_GT(calls, 50) << "calls are not recognised any more";
     EXPECT_LE(calls, 200);
+}
+
+// "Reading …" is a word short: what goes on, and what a command asks for, has its dots at its last word.
+TEST(HouseRules, dotsStandAtAWordOrBetweenTwo) {
+    const std::string dots = "…";
+    int found = 0;
+    forEachSourceLine({"engine", "app", "ui"}, [&](const fs::path& file, const std::string& line) {
+        for (const std::string& text : textsOf(line)) {
+            for (std::size_t at = text.find(dots); at != std::string::npos; at = text.find(dots, at + 1)) {
+                ++found;
+                const std::size_t after = at + dots.size();
+                const bool alone = text == dots;
+                const bool between = after < text.size() && text[after] == ' ';
+                EXPECT_TRUE(alone || (at > 0 && (text[at - 1] != ' ' || between))) << file << ": " << text;
+            }
+        }
+    });
+    EXPECT_GT(found, 50) << "texts are not recognised any more";
 }
 
 }  // namespace eyrie::house_rules_test

@@ -170,7 +170,7 @@ TEST_F(ReviewReport, WithoutAKnownScaleNobodyIsToldMetres) {
     EXPECT_THAT(html, HasSubstr("px/frame"));
     EXPECT_THAT(html,
                 HasSubstr("not known; the search worked with 0.2 m/px, estimated from 14 vehicles, right to within "
-                          "a factor of 1.2, and no speeds in km/h are told"));
+                          "a factor of 1.2, and no speeds in km/h are given"));
     EXPECT_THAT(html, HasSubstr("Clock</b></td><td>not known"));
 }
 

@@ -77,7 +77,7 @@ LabelActions::LabelActions(KeyBindings& keys, QWidget& window, QWidget& canvas)
     next_attention = add(tr("Next frame that needs attention"), {QKeySequence(Qt::Key_W)});
     next_unchecked = add(tr("Next unchecked object"), {QKeySequence(Qt::Key_U)});
     follow = addToggle(tr("Keep the object centred"), {QKeySequence(Qt::Key_S)}, false);
-    follow_upright = addToggle(tr("… and turn the picture so that it points up"), {}, true);
+    follow_upright = addToggle(tr("When centred, turn the picture so that the object points up"), {}, true);
     this_frame = addToggle(tr("List objects of this frame only"), {QKeySequence(tr("Shift+H"))}, false);
     deselect = add(tr("Stop drawing, clear the selection"), {QKeySequence(Qt::Key_Escape)});
 

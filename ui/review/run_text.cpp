@@ -103,8 +103,9 @@ QString runSummaryText(const RunRecord& run, const RunFacts& facts, std::size_t 
     if (facts.counts.unregistered > 0) sentences << unregisteredText(run, facts.counts) + QLatin1Char('.');
     sentences << tr("Scale: %1.").arg(scaleText(run));
     if (run.rate_assumed)
-        sentences << tr("Nobody said the frame rate: %1 per second are assumed, so times and speeds may be wrong.")
-                         .arg(QLocale().toString(run.scale.frame_rate_hz, 'g', 4));
+        sentences
+            << tr("The frame rate is not known: %1 frames per second are assumed, so times and speeds may be wrong.")
+                   .arg(QLocale().toString(run.scale.frame_rate_hz, 'g', 4));
     return sentences.join(QLatin1Char(' '));
 }
 

@@ -152,9 +152,9 @@ QString TracksModel::helpOf(int column) const {
         case class_column:
             return tr(
                 "What the track is, by its mean size and speed over the ground (classes.*); a dash where they do not "
-                "tell");
+                "decide it");
         case like_column:
-            return tr("How like the chosen track, from 0 to 1: path over the ground, speed and size");
+            return tr("Likeness to the chosen track, from 0 to 1: path over the ground, speed and size");
         default:
             return {};
     }

@@ -96,8 +96,8 @@ void ProjectSession::saveProjectCopy(const fs::path& target) {
 void ProjectSession::saveProjectAs(const fs::path& target) {
     if (running()) {
         emit problem(
-            tr("A run is writing into the project. Stop it, or wait for its end, before saving the project "
-               "under another name."));
+            tr("A run is writing into the project. Stop it, or wait until it ends, before saving the project under "
+               "another name."));
         return;
     }
     if (project_open_)
@@ -225,7 +225,7 @@ void ProjectSession::startRun() {
     if (!media_ || running()) return;
     if (!project_open_) {
         emit problem(
-            tr("There is no project to store the run in. Save one where you may write (File ▸ Save project as)."));
+            tr("There is no project to store the run in. Save one where you can write (File ▸ Save project as)."));
         return;
     }
     if (missing_) {

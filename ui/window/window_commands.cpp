@@ -1,6 +1,7 @@
 #include "window/window_commands.h"
 
 #include <QEvent>
+#include <QInputDialog>
 #include <QMainWindow>
 #include <QMessageBox>
 
@@ -8,6 +9,7 @@
 #include "canvas/video_view.h"
 #include "chain/recording/run_recorder.h"
 #include "label/label_workspace.h"
+#include "session/project/person_name.h"
 #include "session/project_session.h"
 #include "tune/inspect/inspection.h"
 #include "widgets/wiring.h"
@@ -141,13 +143,24 @@ bool WindowCommands::eventFilter(QObject* watched, QEvent* event) {
 
 void WindowCommands::bindHelp() {
     const WindowActions& actions = parts_.actions;
-    bindCommands(this, {{actions.keys, [this] { showKeys(); }}, {actions.about, [this] { showAbout(); }}});
+    bindCommands(this, {{actions.keys, [this] { showKeys(); }},
+                        {actions.about, [this] { showAbout(); }},
+                        {actions.your_name, [this] { askForName(); }}});
 }
 
 void WindowCommands::showKeys() {
     auto* sheet = new KeySheet(parts_.keys, parts_.labelling.active() ? tr("Label") : QString(), &parts_.window);
     sheet->setAttribute(Qt::WA_DeleteOnClose);
     sheet->show();
+}
+
+void WindowCommands::askForName() {
+    bool accepted = false;
+    const QString name = QInputDialog::getText(
+        &parts_.window, tr("Your name"),
+        tr("Kept with what you judge, check and correct from now on.\nEmpty: the name of your account."),
+        QLineEdit::Normal, personName(), &accepted);
+    if (accepted) setPersonName(name);
 }
 
 void WindowCommands::showAbout() {

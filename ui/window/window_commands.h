@@ -58,6 +58,7 @@ class WindowCommands : public QObject {
     void followFullScreen();
     void showKeys();
     void showAbout();
+    void askForName();
 
     CommandParts parts_;
 };

@@ -42,6 +42,8 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
                                              {QKeySequence(tr("Ctrl+Shift+R"))},
                                              QT_TR_NOOP("Write the evaluation as one HTML or PDF file")});
     demo = add(tr("Watch the &demo scene"), {"media-playback-start", {QKeySequence(tr("Ctrl+D"))}});
+    your_name = add(tr("Your &name…"),
+                    {"user-identity", {}, QT_TR_NOOP("The name that is kept with what you judge, check and correct")});
     quit = add(tr("&Quit"), {"application-exit", {QKeySequence(tr("Ctrl+Q"))}});
 
     section(tr("Ru&n"));
@@ -86,7 +88,7 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
         addToggle(tr("Play only where something &moves"),
                   {"media-skip-forward",
                    {QKeySequence(tr("Ctrl+Space"))},
-                   QT_TR_NOOP("Leap over stretches in which nothing drives; what could not be searched is played")},
+                   QT_TR_NOOP("Skip stretches in which nothing drives; what could not be searched is played")},
                   false);
 
     addEvents();
@@ -122,7 +124,7 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
     measure = addToggle(tr("&Measure"),
                         {nullptr,
                          {QKeySequence(tr("Ctrl+M"))},
-                         QT_TR_NOOP("Click two places: how far, and between two frames how fast")},
+                         QT_TR_NOOP("Click two places to measure the distance and, across two frames, the speed")},
                         false);
     even_picture = addToggle(tr("&Even out the contrast"),
                              {nullptr,
@@ -133,7 +135,7 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
         add(tr("M&osaic of the ground"),
             {nullptr,
              {QKeySequence(tr("Ctrl+Shift+M"))},
-             QT_TR_NOOP("All ground that was seen, with the ways over it; a click tells what happened there")});
+             QT_TR_NOOP("All ground that was seen, with the paths over it; click a place to see what happened there")});
     snapshot =
         add(tr("&Save what is seen…"),
             {"camera-photo", {QKeySequence(Qt::Key_F12)}, QT_TR_NOOP("The view with all overlays, as a PNG file")});
@@ -227,22 +229,22 @@ void WindowActions::addEvents() {
     join_tracks = addToggle(tr("Join in ti&me with…"),
                             {nullptr,
                              {QKeySequence(tr("Shift+J"))},
-                             QT_TR_NOOP("The selected track and the one that is clicked next are of one vehicle")},
+                             QT_TR_NOOP("The selected track and the one that is clicked next are the same vehicle")},
                             false);
     split_track = add(tr("Spl&it here"), {nullptr,
                                           {QKeySequence(tr("Shift+Y"))},
-                                          QT_TR_NOOP("From this frame on the selected track is of another vehicle")});
+                                          QT_TR_NOOP("From this frame on, the selected track is another vehicle")});
     reject_tracks =
         add(tr("R&eject the selected tracks"),
             {nullptr,
              {QKeySequence(Qt::Key_Backspace)},
-             QT_TR_NOOP("The selected tracks are of nothing that drives: leave them out of everything but the list of "
+             QT_TR_NOOP("Nothing drives where the selected tracks are: leave them out of everything but the list of "
                         "tracks")});
     remove_correction =
-        add(tr("Rem&ove what was corrected"),
+        add(tr("Rem&ove the correction"),
             {"list-remove",
              {QKeySequence(tr("Shift+Insert"))},
-             QT_TR_NOOP("Take back the last that was done to each selected track: added, joined, split, "
+             QT_TR_NOOP("Take back the last correction of each selected track: that it was added, joined, split or "
                         "rejected")});
     undo_verdict =
         add(tr("U&ndo"),
@@ -262,23 +264,24 @@ void WindowActions::addEvents() {
     next_bookmark = add(tr("Ne&xt bookmark"), {nullptr, {QKeySequence(Qt::Key_F9)}});
     previous_bookmark = add(tr("Previous boo&kmark"), {nullptr, {QKeySequence(tr("Shift+F9"))}});
     remove_bookmark = add(tr("Re&move the bookmark"), {nullptr, {QKeySequence(tr("Ctrl+Shift+F9"))}});
-    draw_zone = addToggle(tr("Draw a &zone"),
-                          {nullptr,
-                           {QKeySequence(tr("Ctrl+Shift+A"))},
-                           QT_TR_NOOP("Click the corners of an area that is watched: who enters it, and who leaves")},
-                          false);
-    draw_line = addToggle(tr("Draw a &line"),
-                          {nullptr,
-                           {QKeySequence(tr("Ctrl+Shift+L"))},
-                           QT_TR_NOOP("Click the points of a line that is watched: who crosses it, and to which side")},
-                          false);
-    control_points = addToggle(
-        tr("Set &ground control points"),
-        {nullptr,
-         {QKeySequence(tr("Ctrl+Shift+K"))},
-         QT_TR_NOOP("Click places that a map shows, too, and write their latitude and longitude: the video is laid on "
-                    "the earth")},
-        false);
+    draw_zone =
+        addToggle(tr("Draw a &zone"),
+                  {nullptr,
+                   {QKeySequence(tr("Ctrl+Shift+A"))},
+                   QT_TR_NOOP("Click the corners of an area to watch: which vehicles enter it, and which leave")},
+                  false);
+    draw_line =
+        addToggle(tr("Draw a &line"),
+                  {nullptr,
+                   {QKeySequence(tr("Ctrl+Shift+L"))},
+                   QT_TR_NOOP("Click the points of a line to watch: which vehicles cross it, and to which side")},
+                  false);
+    control_points = addToggle(tr("Set &ground control points"),
+                               {nullptr,
+                                {QKeySequence(tr("Ctrl+Shift+K"))},
+                                QT_TR_NOOP("Click places that a map also shows, and enter their latitude and "
+                                           "longitude, to lay the video on the earth")},
+                               false);
 }
 
 void WindowActions::addOverlays(OverlaySettings& overlays) {

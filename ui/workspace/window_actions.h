@@ -26,7 +26,7 @@ class WindowActions : public QObject {
     const QList<ActionSection>& sections() const { return sections_; }
 
     QAction *open_video, *open_folder, *watch_live, *open_project, *save_as, *save_copy, *restore_state, *start_time,
-        *export_tracks, *demo, *quit;
+        *export_tracks, *demo, *your_name, *quit;
     QAction *run, *stop, *continue_run, *follow, *restore_run;
     QAction *play, *step_back, *step_on, *jump_back, *jump_on, *first, *last, *go_to_frame, *shuttle_back,
         *shuttle_stop, *shuttle_on, *slower, *faster, *loop, *only_moving;

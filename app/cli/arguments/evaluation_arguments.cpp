@@ -6,31 +6,31 @@ namespace eyrie::cli {
 
 CLI::Option* GroundTruthArguments::addTo(CLI::App& command, const std::string& otherwise) {
     addOriginTo(command);
-    return command.add_option("--ground-truth", file, "True boxes, in any format that import reads" + otherwise);
+    return command.add_option("--ground-truth", file,
+                              "Ground truth boxes, in any format that import reads" + otherwise);
 }
 
 void GroundTruthArguments::addOriginTo(CLI::App& command) {
     command.add_option("--mot-origin", mot_origin,
-                       "Where the first pixel begins in MOTChallenge text (else 1, as by its rules; 0 with labels.txt "
+                       "Where the first pixel begins in MOTChallenge text (default 1, by its rules; 0 with labels.txt "
                        "beside it, as CVAT and datumaro write it)");
 }
 
 void EvaluationArguments::addTo(CLI::App& command) {
-    command.add_option("--overlap", overlaps, "Overlaps T_ov from which on a box counts as found")
+    command.add_option("--overlap", overlaps, "Overlaps T_ov from which a box counts as found")
         ->delimiter(',')
         ->capture_default_str();
     addRuleTo(command);
 }
 
 void EvaluationArguments::addRuleTo(CLI::App& command) {
-    CLI::Option* vehicles =
-        command.add_flag("--vehicles", options.vehicles_only,
-                         "Only vehicles count; other objects of the ground truth count neither way, and results count "
-                         "whatever class they name");
+    CLI::Option* vehicles = command.add_flag("--vehicles", options.vehicles_only,
+                                             "Only vehicles count; other objects of the ground truth are ignored, and "
+                                             "results count whatever class they name");
     command
         .add_option_function<std::string>(
             "--classes", [this](const std::string& word) { options.one_class = scoredClass(word); },
-            "Only objects of this class count, others count neither way; results that name another class are left out")
+            "Only objects of this class count, others are ignored; results that name another class are left out")
         ->check(CLI::IsMember(scoredClassWords()))
         ->default_str("all")
         ->excludes(vehicles);

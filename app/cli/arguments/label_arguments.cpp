@@ -31,10 +31,10 @@ void addLabelOptions(CLI::App& command, LabelArguments& arguments, const char* f
     command.add_option(columns_name, arguments.columns,
                        "Columns of your own table, such as frame,id,cname,x1,y1,x2,y2 or frame,n,[id,x,y,w,h]");
     command.add_option("--first-frame", arguments.first_frame,
-                       "Number of a video's first frame in such a table (else 0)");
+                       "Number of a video's first frame in such a table (default 0)");
     command.add_option("--pixel-origin", arguments.pixel_origin,
-                       "Where the first pixel begins in such a table (else 0) and in MOTChallenge text (else 1; 0 with "
-                       "labels.txt beside it)");
+                       "Where the first pixel begins in such a table (default 0) and in MOTChallenge text (default 1; "
+                       "0 with labels.txt beside it)");
     command.add_option("--size", arguments.size, "Size of the image, WIDTHxHEIGHT, for formats relative to it");
 }
 

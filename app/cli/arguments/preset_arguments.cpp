@@ -51,8 +51,8 @@ RecordingOptions PresetArguments::recordingAll(const std::string& option, FrameI
     if (kept.keepsAllDetails(first, last)) return kept;
     if (kept.details != KeptDetails::automatic)
         throw Error(ErrorKind::parameter,
-                    option + " needs what is behind the tracks of every frame, which recording.details=" +
-                        nameOf(kept.details) + " does not keep; leave out one of both");
+                    option + " needs the details behind the tracks of every frame, which recording.details=" +
+                        nameOf(kept.details) + " does not keep; leave out one of the two");
     kept.details = KeptDetails::all;
     return kept;
 }

@@ -27,7 +27,7 @@ void VideoArguments::addTo(CLI::App& command) {
 }
 
 void VideoArguments::addTimeTo(CLI::App& command) {
-    command.add_option("--fps", frame_rate_hz, "Frames per second, when the video does not tell or is wrong");
+    command.add_option("--fps", frame_rate_hz, "Frames per second, where the video does not state them or is wrong");
     command.add_option("--frames", frames, "First and last frame, both included, from 0: A:B, A: or :B");
 }
 

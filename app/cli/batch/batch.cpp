@@ -25,7 +25,7 @@ constexpr int kBegunAtOnce = 16;  ///< rows
 /// The last line that a command said, without the name that it begins with.
 std::string lastWords(const std::string& errors) {
     const std::size_t end = errors.find_last_not_of(" \r\n");
-    if (end == std::string::npos) return "ended without a word";
+    if (end == std::string::npos) return "ended without a message";
     const std::size_t before = errors.find_last_of("\r\n", end);
     const std::size_t begin = before == std::string::npos ? 0 : before + 1;
     const std::string line = errors.substr(begin, end - begin + 1);

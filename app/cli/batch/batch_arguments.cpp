@@ -25,15 +25,18 @@ std::string exactText(double value) {
 }  // namespace
 
 void BatchArguments::addTo(CLI::App& command) {
-    command.add_option("places", places, "Folders with videos or images, also deeper within, and single videos")
+    command.add_option("places", places, "Folders with videos or images, subfolders included, and single videos")
         ->required();
     command
-        .add_option("--out", out, "Folder for one project a file, laid out as the videos are, the summary and the log")
+        .add_option(
+            "--out", out,
+            "Folder for the projects, one for each file and laid out as the videos are, the summary and the log")
         ->required();
-    command.add_option("--jobs", jobs, "Files at once (default: one for every four cores)")->check(CLI::Range(1, 256));
+    command.add_option("--jobs", jobs, "Files processed at once (default: one for every four cores)")
+        ->check(CLI::Range(1, 256));
     video.addTo(command);
     preset.addTo(command);
-    command.add_flag("--quiet", quiet, "Tell only what failed");
+    command.add_flag("--quiet", quiet, "Report only what failed");
 }
 
 BatchOptions BatchArguments::options(const std::string& record) const {

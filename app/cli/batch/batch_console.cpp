@@ -62,7 +62,7 @@ void BatchConsole::show(const Batch& batch) {
     const std::size_t ended = batch.rows().size() - working - countOf(batch, BatchState::waiting);
     const double left = batch.secondsLeft();
     const std::string time = left < 0 ? "" : ", " + clockText(left) + " left";
-    std::fprintf(stderr, "\r%zu of %zu files, %zu at work, %zu failed, %.0f %%%s\033[K", ended, batch.rows().size(),
+    std::fprintf(stderr, "\r%zu of %zu files, %zu running, %zu failed, %.0f %%%s\033[K", ended, batch.rows().size(),
                  working, countOf(batch, BatchState::failed), 100 * batch.share(), time.c_str());
     drawn_ = true;
 }

@@ -130,7 +130,7 @@ void addBackupsCommand(CLI::App& app, int&) {
     const auto arguments = std::make_shared<Arguments>();
     CLI::App* command =
         app.add_subcommand("backups", "List the earlier states of a project, and how they differ from the present one");
-    command->add_option("PROJECT", arguments->project, "Project (.eyrie); it may be gone")->required();
+    command->add_option("PROJECT", arguments->project, "Project (.eyrie), which may have been deleted")->required();
     command->add_flag("--json", arguments->json, "Print JSON");
     command->callback([arguments] { listEarlierStates(arguments->project, arguments->json); });
 }

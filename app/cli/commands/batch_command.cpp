@@ -45,7 +45,7 @@ int runBatch(const BatchArguments& arguments, const std::string& shard_text) {
         std::this_thread::sleep_for(kBetweenSteps);
     }
     const bool stopped = interrupt.token().stop_requested();
-    if (stopped && !arguments.quiet) std::fprintf(stderr, "stopped; the same command goes on\n");
+    if (stopped && !arguments.quiet) std::fprintf(stderr, "stopped; the same command continues\n");
     return end(console, batch, stopped);
 }
 
@@ -105,7 +105,7 @@ void addBatchCommand(CLI::App& app, int& exit_code) {
     const auto arguments = std::make_shared<BatchArguments>();
     const auto shard = std::make_shared<std::string>();
     CLI::App* command = app.add_subcommand(
-        "batch", "Run over all videos of folders, one project each; started again, it goes on and skips what is done");
+        "batch", "Process all videos of folders, one project each; started again, it continues and skips what is done");
     arguments->addTo(*command);
     command
         ->add_option("--shard", *shard,
@@ -119,7 +119,7 @@ void addWatchCommand(CLI::App& app, int& exit_code) {
     const auto arguments = std::make_shared<BatchArguments>();
     const auto settle = std::make_shared<double>(10);
     CLI::App* command =
-        app.add_subcommand("watch", "Run over videos as they arrive in folders, one project each, until Ctrl-C");
+        app.add_subcommand("watch", "Process videos as they arrive in folders, one project each, until Ctrl-C");
     arguments->addTo(*command);
     command->add_option("--settle", *settle, "Seconds for which a file must not have changed before it is taken (10)")
         ->check(CLI::Range(0.0, 86400.0));

@@ -64,7 +64,7 @@ int makeClip(const ClipArguments& arguments) {
         throw Error(ErrorKind::parameter, "clip needs to know what to cut: either --event N or --frames A:B");
     }
     if (!(std::isfinite(arguments.around_s) && arguments.around_s >= 0)) {
-        throw Error(ErrorKind::parameter, "--around: expected seconds from 0 on, e.g. 2");
+        throw Error(ErrorKind::parameter, "--around: expected 0 seconds or more, e.g. 2");
     }
     const InterruptGuard interrupt;
     const EventChoice choice = arguments.events.choice();
@@ -99,9 +99,9 @@ void addClipCommand(CLI::App& app, int& exit_code) {
     CLI::App* command =
         app.add_subcommand("clip", "Cut an event, or some frames, out of a run's video, with or without the tracks");
     arguments->events.addRunTo(*command);
-    CLI::Option* event = command->add_option("--event", arguments->event,
-                                             "Number of the event, as eyrie-cli events tells it with the same --zone "
-                                             "and --set");
+    CLI::Option* event =
+        command->add_option("--event", arguments->event,
+                            "Number of the event, as eyrie-cli events lists it with the same --zone and --set");
     command->add_option("--frames", arguments->frames, "First and last frame instead, both included: A:B, A: or :B")
         ->excludes(event);
     command->add_option("--around", arguments->around_s, "Seconds before and after the event")->capture_default_str();

@@ -270,7 +270,7 @@ void addCompareCommand(CLI::App& app, int& exit_code) {
     command->add_option("--csv", arguments->csv, "Write the figures as CSV, too");
     command
         ->add_option("--published", arguments->published,
-                     "Print what the thesis publishes for this sequence below: seq1, seq2, egtest01")
+                     "Also print what the thesis publishes for this sequence: seq1, seq2, egtest01")
         ->check(CLI::IsMember(publishedSequences()));
     arguments->outputs.addTo(*command);
     command->add_flag("--json", arguments->json, "Print JSON");

@@ -78,7 +78,7 @@ cv::Size imageSize(const EvaluateArguments& arguments, const Result& result) {
     if (const auto known = knownImageSize(arguments, result)) return *known;
     throw Error(ErrorKind::parameter,
                 "--border needs the size of the image, which neither a project nor a file beside " +
-                    arguments.ground_truth.file + " tells; add --size WIDTHxHEIGHT");
+                    arguments.ground_truth.file + " states; add --size WIDTHxHEIGHT");
 }
 
 RegistrationError registrationErrorOf(const EvaluateArguments& arguments, const Result& result) {
@@ -190,7 +190,8 @@ void addEvaluateCommand(CLI::App& app, int& exit_code) {
     command->add_flag("--json", arguments->json, "Print JSON");
     command->callback([arguments, &exit_code] {
         if (arguments->result.empty() == arguments->project.empty()) {
-            throw Error(ErrorKind::parameter, "evaluate needs what to measure: either --result FILE or --project FILE");
+            throw Error(ErrorKind::parameter,
+                        "evaluate needs something to measure: either --result FILE or --project FILE");
         }
         if (arguments->ground_truth.file.empty() && arguments->project.empty()) {
             throw Error(ErrorKind::parameter,

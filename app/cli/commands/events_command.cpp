@@ -50,15 +50,15 @@ std::vector<std::string> makersOf(const JudgedEvents& wanted, const StoredTracks
 
 void tellUnregistered(const StoredTracks& stored) {
     if (stored.unregistered == 0) return;
-    std::fprintf(stderr, "eyrie-cli: %d frame%s could not be registered; nothing is told across them\n",
+    std::fprintf(stderr, "eyrie-cli: %d frame%s could not be registered; no event is found across them\n",
                  stored.unregistered, stored.unregistered == 1 ? "" : "s");
 }
 
 void tellRemarks(const StoredTracks& stored, const std::vector<std::string>& remarks) {
     if (!stored.footage.scale.gsd_known) {
         std::fprintf(stderr,
-                     "eyrie-cli: the scale is not known; limits in km/h and m are taken at %s m/px, run again with "
-                     "--gsd for speeds that hold\n",
+                     "eyrie-cli: the scale is not known; limits in km/h and m are taken at %s m/px; run again with "
+                     "--gsd for reliable speeds\n",
                      numberText(stored.footage.scale.gsd_m_per_px).c_str());
     }
     tellUnregistered(stored);
@@ -98,7 +98,7 @@ void tellLikeTracks(const ListArguments& arguments) {
     arguments.outputs.check({{arguments.csv, FileKind::text}}, {arguments.events.project});
     const StoredTracks stored = arguments.events.readTracksAlone();
     if (!hasMetricLimits(stored.footage.scale))
-        std::fprintf(stderr, "eyrie-cli: the scale is not known; distances count in lengths of vehicles\n");
+        std::fprintf(stderr, "eyrie-cli: the scale is not known; distances are measured in vehicle lengths\n");
     tellUnregistered(stored);
     const GroundStretches ground(stored.footage);
     const std::vector<TrackLikeness> found = tracksLike(stored, ground, arguments.like, choice.options);
@@ -115,11 +115,12 @@ void addEventsCommand(CLI::App& app, int& exit_code) {
     arguments->events.addRunTo(*command);
     arguments->events.addChoiceTo(*command, "all");
     arguments->events.addSearchTo(*command);
-    auto* like = command
-                     ->add_option("--like", arguments->like,
-                                  "List instead the other tracks by how like they are to this one, in path over the "
-                                  "ground, speed and size")
-                     ->type_name("TRACK");
+    auto* like =
+        command
+            ->add_option(
+                "--like", arguments->like,
+                "List the other tracks instead, by their likeness to this one, in path over the ground, speed and size")
+            ->type_name("TRACK");
     for (const char* of_events : {"--kind", "--verdict", "--zone"}) like->excludes(command->get_option(of_events));
     command->add_option("--csv", arguments->csv, "Write what is listed as a table, too");
     like->excludes(command->add_option("--start", arguments->start, kStartHelp));

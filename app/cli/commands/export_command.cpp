@@ -106,7 +106,7 @@ void exportVmti(const ExportArguments& arguments, ProjectFile& project, const Ru
     if (report.without_stamp > 0)
         std::printf("  note        %d frames are left out: their pictures have no stamp in the video\n",
                     report.without_stamp);
-    std::printf("  note        written after what is publicly known of ST 0903.5; not checked against a validator\n");
+    std::printf("  note        written from what is publicly known about ST 0903.5; not checked with a validator\n");
 }
 
 void exportRun(const ExportArguments& arguments, ProjectFile& project) {
@@ -133,7 +133,7 @@ void exportRun(const ExportArguments& arguments, ProjectFile& project) {
 
 void exportLabels(const ExportArguments& arguments) {
     if (arguments.format == kVmtiFormat && (!arguments.from.empty() || arguments.labels))
-        throw Error(ErrorKind::parameter, "vmti is written of runs: give --project and, if need be, --run");
+        throw Error(ErrorKind::parameter, "vmti is written from runs: give --project and, if need be, --run");
     if (arguments.format == kVmtiFormat && arguments.detections)
         throw Error(ErrorKind::parameter,
                     "vmti holds targets that are followed, which detections are not: leave --detections out, or choose "
@@ -166,14 +166,14 @@ void addExportCommand(CLI::App& app, int& exit_code) {
     command->add_option("--start", arguments->start, kStartHelp)->needs(project);
     command->add_option("--from", arguments->from, "File or folder of labels to convert")->excludes(project);
     addLabelOptions(*command, arguments->from_labels, "--from-format", "--from-columns");
-    command->add_option("--format", arguments->format, "One of " + formatNames(true) + ", " + kVmtiFormat)
-        ->required();
+    command->add_option("--format", arguments->format, "One of " + formatNames(true) + ", " + kVmtiFormat)->required();
     command->add_option("--out", arguments->out, "File, or folder for formats with a text file per image")->required();
     command->add_option("--columns", arguments->options.columns, "Columns of your own table, for format columns");
     command->add_option("--out-first-frame", arguments->options.first_frame_number,
-                        "Number of a video's first frame in such a table (else 0)");
-    command->add_option("--out-pixel-origin", arguments->options.first_pixel_edge,
-                        "Where the first pixel begins in such a table (else 0) and in MOTChallenge text (else 1)");
+                        "Number of a video's first frame in such a table (default 0)");
+    command->add_option(
+        "--out-pixel-origin", arguments->options.first_pixel_edge,
+        "Where the first pixel begins in such a table (default 0) and in MOTChallenge text (default 1)");
     CLI::Option* clip = command->add_flag("--clip", arguments->clip, "Clip boxes to the image");
     command->add_flag("--keep-outside", arguments->keep, "Do not clip, not even for YOLO-OBB")->excludes(clip);
     command->add_flag("--unrotated-bounds", arguments->options.unrotated_bounds,
@@ -187,7 +187,7 @@ void addExportCommand(CLI::App& app, int& exit_code) {
     arguments->outputs.addTo(*command);
     command->callback([arguments, &exit_code] {
         if (arguments->from.empty() == arguments->project.empty()) {
-            throw Error(ErrorKind::parameter, "export needs what to write: --project P.eyrie or --from FILE");
+            throw Error(ErrorKind::parameter, "export needs something to write: --project P.eyrie or --from FILE");
         }
         exportLabels(*arguments);
         exit_code = exit_ok;

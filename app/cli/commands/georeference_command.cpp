@@ -100,9 +100,9 @@ void addGeoreferenceCommand(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand(
         "georeference", "Lay a video on the earth by points that a person found in it and on a map; lists them");
     command->add_option("--project", arguments->project, "Project with the video")->required();
-    CLI::Option* points = command->add_option(
-        "--points", arguments->points,
-        "Table frame,x,y,latitude,longitude of at least four points; takes the place of those before");
+    CLI::Option* points =
+        command->add_option("--points", arguments->points,
+                            "Table frame,x,y,latitude,longitude of at least four points; replaces the earlier ones");
     command->add_flag("--clear", arguments->clear, "Forget the points")->excludes(points);
     command->add_option("--sequence", arguments->sequence, "Number of the project's video, where it has several");
     command->callback([arguments, &exit_code] { exit_code = georeference(*arguments); });

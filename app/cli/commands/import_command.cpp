@@ -152,7 +152,7 @@ void importLabels(const ImportArguments& arguments) {
                 done.keyframes, done.boxes, done.regions, arguments.project.c_str());
     printNotes(done.notes);
     if (done.loose.boxes > 0 && !arguments.link) std::printf("  note        --link links them\n");
-    if (done.doubles > 0) std::printf("  note        --add-doubles adds them all the same\n");
+    if (done.doubles > 0) std::printf("  note        --add-doubles adds them anyway\n");
 }
 
 }  // namespace
@@ -192,7 +192,7 @@ void addImportCommand(CLI::App& app, int& exit_code) {
     command->callback([arguments, &exit_code] {
         if (arguments->project.empty() && arguments->out.empty() && !arguments->show) {
             throw Error(ErrorKind::parameter,
-                        "import needs to know where to: --project P.eyrie, --out labels.csv, or --show to look only");
+                        "import needs a destination: --project P.eyrie, --out labels.csv, or --show only to look");
         }
         importLabels(*arguments);
         exit_code = exit_ok;

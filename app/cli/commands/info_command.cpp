@@ -185,8 +185,9 @@ void addInfoCommand(CLI::App& app, int&) {
     const auto arguments = std::make_shared<InfoArguments>();
     CLI::App* command = app.add_subcommand("info", "Show what a video, a folder of images or a project holds");
     command
-        ->add_option("FILE", arguments->files,
-                     "Video, folder of images or project (.eyrie); several video files: they are one video in a row")
+        ->add_option(
+            "FILE", arguments->files,
+            "Video, folder of images or project (.eyrie); several video files count as one video, in their order")
         ->required();
     command->add_option("--fps", arguments->frame_rate_hz, "Frames per second, instead of the video's own")
         ->check(CLI::PositiveNumber);

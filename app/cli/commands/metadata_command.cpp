@@ -207,7 +207,7 @@ void tellMetadata(const MetadataArguments& arguments) {
         facts["streams"].push_back(jsonOf(stream));
     }
     for (const DataStream& track : recording.foreign_tracks) {
-        std::printf("Track %d (PID 0x%x): data that are no KLV (%s)\n", track.number, static_cast<unsigned>(track.id),
+        std::printf("Track %d (PID 0x%x): data that is not KLV (%s)\n", track.number, static_cast<unsigned>(track.id),
                     track.codec.c_str());
         facts["other_tracks"].push_back({{"track", track.number}, {"id", track.id}, {"codec", track.codec}});
     }
@@ -233,17 +233,19 @@ void tellMetadata(const MetadataArguments& arguments) {
 void addMetadataCommand(CLI::App& app, int& exit_code) {
     const auto arguments = std::make_shared<MetadataArguments>();
     CLI::App* command = app.add_subcommand(
-        "metadata", "Show what a video says of its camera (MISB KLV): time, place, scale, north and footprint");
+        "metadata", "Show what a video says about its camera (MISB KLV): time, place, scale, north and footprint");
     command
         ->add_option("FILE", arguments->files,
-                     "Video, e.g. a transport stream, or a file of nothing but KLV; several video files: they are one "
-                     "video in a row")
+                     "Video, e.g. a transport stream, or a file of nothing but KLV; several video files count as one "
+                     "video, in their order")
         ->required();
     command->add_option("--frame", arguments->frame,
-                        "Frame whose scale, north and footprint to tell (default: the first that has them)");
+                        "Frame whose scale, north and footprint to show (default: the first that has them)");
     command->add_option("--stream", arguments->stream,
                         "Number of the stream to use, where there are several (default: the one that says most)");
-    command->add_option("--csv", arguments->csv, "Write the sets of the stream as a table: a row each, a column a tag")
+    command
+        ->add_option("--csv", arguments->csv,
+                     "Write the sets of the stream as a table: a row for each set, a column for each tag")
         ->type_name("FILE");
     command->add_option("--json", arguments->json, "Write what is shown as JSON, too")->type_name("FILE");
     arguments->outputs.addTo(*command);

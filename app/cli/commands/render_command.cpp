@@ -163,8 +163,8 @@ int run(const RenderArguments& arguments) {
     writeHomographyCsv(folder / "homography.csv", homographies);
     writeDescription(folder / "scene.json", scene, done);
     if (video) video->finish();
-    std::printf("%d frames of scene '%s' (seed %u%s) with their truth: %s\n", done, scene.name.c_str(), scene.seed,
-                arguments.seed == 0 ? ", the scene's own" : "", folder.string().c_str());
+    std::printf("%d frames of scene '%s' (seed %u%s) with their ground truth: %s\n", done, scene.name.c_str(),
+                scene.seed, arguments.seed == 0 ? ", the scene's own" : "", folder.string().c_str());
     return done < count ? exit_stopped : exit_ok;
 }
 
@@ -188,8 +188,7 @@ void addRenderCommand(CLI::App& app, int& exit_code) {
     command->add_option("--seed", arguments->seed, "Another scene of the same kind (default: the scene's own)");
     command->add_option("--frames", arguments->frames, "Only the first N frames");
     command->add_option("--lost", arguments->lost, "Share of frames that a bad radio link freezes or drops (0..0.5)");
-    command->add_flag("--upright", arguments->upright,
-                      "Ground truth with upright boxes, as the original of egtest01 has");
+    command->add_flag("--upright", arguments->upright, "Ground truth with upright boxes, as the original egtest01 has");
     command->add_flag("--video", arguments->video, "Also write video.mp4");
     arguments->outputs.addTo(*command);
     command->add_flag("--quiet", arguments->quiet, "No progress");

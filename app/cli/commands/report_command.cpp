@@ -87,7 +87,7 @@ int makeEventReport(const ReportArguments& arguments) {
     std::printf("Report: %s, %s, %zu of %zu events\n", arguments.out.c_str(), runText(run).c_str(),
                 countOfEvents(input), input.reviewed.events.size());
     if (countOfEvents(input) == 0 && !input.reviewed.events.empty())
-        std::fputs("None was judged so; --verdict all tells every event\n", stderr);
+        std::fputs("No event has that verdict; --verdict all reports every event\n", stderr);
     return exit_ok;
 }
 

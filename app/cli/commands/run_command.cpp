@@ -286,13 +286,13 @@ int run(const RunArguments& arguments) {
     if (!arguments.detections_csv.empty()) arguments.preset.recordingAll("--detections", 0, 0);
     if (arguments.inputs.size() == 1 && isLiveAddress(arguments.inputs.front())) return runLive(arguments);
     if (arguments.live_given)
+        throw Error(ErrorKind::parameter,
+                    "--seconds, --wait and --give-up are for live sources, and INPUT is not one; --frames says how "
+                    "much of a video is processed");
+    if (arguments.inputs.empty() && !(arguments.resume && !arguments.project.empty())) {
         throw Error(
             ErrorKind::parameter,
-            "--seconds, --wait and --give-up are for live sources, and INPUT is none; --frames says how much of "
-            "a video is looked at");
-    if (arguments.inputs.empty() && !(arguments.resume && !arguments.project.empty())) {
-        throw Error(ErrorKind::parameter,
-                    "INPUT is missing: name a video, a folder of images or a scene; --resume can do with --project");
+            "INPUT is missing: name a video, a folder of images or a scene; with --resume, --project is enough");
     }
     if (arguments.run_id && !arguments.resume) {
         throw Error(ErrorKind::parameter, "--run names the run to resume; add --resume, or leave it out");
@@ -351,9 +351,9 @@ void addRunCommand(CLI::App& app, int& exit_code) {
     CLI::App* command =
         app.add_subcommand("run", "Find and follow the moving vehicles of a video and store them in a project");
     command->add_option("input", arguments->inputs,
-                        "A video file, or several that are one video in a row; a list of such (*.parts), a folder of "
-                        "images, scene:NAME for a built-in scene, or the address of a live source (udp://, rtsp://, "
-                        "srt:// …); with --resume and --project it may be left out");
+                        "A video file, or several that count as one video, in their order; a list of such (*.parts), a "
+                        "folder of images, scene:NAME for a built-in scene, or the address of a live source (udp://, "
+                        "rtsp://, srt:// and others); with --resume and --project it may be left out");
     command->add_option(
         "--project", arguments->project,
         "Project file; made when it does not exist, else a run is added (default: INPUT's name in this folder)");
@@ -369,14 +369,14 @@ void addRunCommand(CLI::App& app, int& exit_code) {
     command->add_option("--annotated", arguments->annotated, "Write the video with all results drawn in (mp4)");
     command->add_option("--timing", arguments->timing, "Write median times per stage as JSON");
     command->add_option("--seconds", arguments->live.seconds,
-                        "Live source: end after so long (default: Ctrl-C ends it)");
+                        "Live source: seconds after which to end (default: Ctrl-C ends it)");
     command->add_option("--wait", arguments->live.wait_s, "Live source: seconds to wait for its first picture")
         ->check(CLI::Range(0.5, 3600.0))
         ->capture_default_str();
     command
-        ->add_option(
-            "--give-up", arguments->live.give_up_s,
-            "Live source: seconds without a picture after which it has ended; until then it is connected to again")
+        ->add_option("--give-up", arguments->live.give_up_s,
+                     "Live source: seconds without a picture after which it counts as ended; until then Eyrie tries to "
+                     "connect again")
         ->check(CLI::Range(0.5, 1e6))
         ->capture_default_str();
     arguments->outputs.addTo(*command);

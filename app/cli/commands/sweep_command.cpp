@@ -135,7 +135,7 @@ void checkOutputs(const SweepArguments& arguments) {
 int sweep(const SweepArguments& arguments) {
     if (arguments.sources.sequences.empty() == arguments.sources.project.empty()) {
         throw Error(ErrorKind::parameter,
-                    "sweep needs what to work on: either --sequence with --ground-truth, or --project");
+                    "sweep needs something to work on: either --sequence with --ground-truth, or --project");
     }
     if (arguments.out.empty() && arguments.sources.project.empty())
         throw Error(ErrorKind::parameter,

@@ -1,4 +1,4 @@
-// The part of identity_verbs.h that makes edits of changes.
+// The part of identity_edits.h that makes edits of changes.
 #include <algorithm>
 #include <set>
 

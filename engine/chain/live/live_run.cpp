@@ -208,7 +208,7 @@ struct LiveRun::Parts {
         if (const auto there = filesToReplace(written, {}); !there.empty())
             throw Error(
                 ErrorKind::output,
-                shortList(there) + ": is there already; a recording takes the place of no file, choose another name");
+                shortList(there) + ": exists already; a recording never replaces a file, so choose another name");
         return request;
     }
 

@@ -79,7 +79,7 @@ void applyEdit(AnnotationSet& set, const AnnotationEdit& edit) {
         }
     }
     if (edit.reviews && edit.reviews->kept + edit.reviews->removed.size() != set.reviews.size()) {
-        refuse("the review marks are others by now");
+        refuse("the review marks were changed in the meantime");
     }
     change(set.objects, edit.objects);
     change(set.regions, edit.regions);
@@ -113,7 +113,7 @@ void checkRegion(const IgnoreRegion& region) {
         if (!std::isfinite(corner.x) || !std::isfinite(corner.y)) refuse(who + ": a corner is not finite");
     }
     if (region.first_frame < 0 || region.last_frame < region.first_frame || region.reference_frame < 0) {
-        refuse(who + " has a range of frames that is none");
+        refuse(who + " has an invalid range of frames");
     }
 }
 

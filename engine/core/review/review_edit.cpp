@@ -22,11 +22,11 @@ void checkText(const std::string& text, const char* what) {
 }
 
 void checkTime(double seconds, const std::string& who) {
-    if (!std::isfinite(seconds)) refuseStep(who + " has a time that is none");
+    if (!std::isfinite(seconds)) refuseStep(who + " has an invalid time");
 }
 
 void checkPoint(cv::Point2d point, const std::string& who) {
-    if (!std::isfinite(point.x) || !std::isfinite(point.y)) refuseStep(who + " has a place that is none");
+    if (!std::isfinite(point.x) || !std::isfinite(point.y)) refuseStep(who + " has an invalid place");
 }
 
 template <class Value, class Check>
@@ -43,7 +43,7 @@ void checkSteps(const std::map<int, Value>& present, const std::vector<Change<Va
         const auto there = present.find(id);
         if (change.before && there == present.end()) refuseStep(who + " is not there");
         if (!change.before && there != present.end()) refuseStep(who + " is there already");
-        if (change.before && !(there->second == *change.before)) refuseStep(who + " is another by now");
+        if (change.before && !(there->second == *change.before)) refuseStep(who + " was changed in the meantime");
         if (!seen.insert(id).second) refuseStep(who + " would be changed twice");
         if (change.after) check(*change.after);
     }
@@ -107,7 +107,7 @@ void checkVerdict(const Verdict& verdict) {
     if (verdict.id < 1) refuseStep(who + " has no number above 0");
     if (subject.first_frame < 0 || subject.last_frame < subject.first_frame || subject.frame < subject.first_frame ||
         subject.frame > subject.last_frame || subject.ground_frame < 0) {
-        refuseStep(who + " has a range of frames that is none");
+        refuseStep(who + " has an invalid range of frames");
     }
     checkTime(subject.first_s, who);
     checkTime(subject.last_s, who);
@@ -120,7 +120,7 @@ void checkVerdict(const Verdict& verdict) {
     const std::string tags = tagText(verdict.tags);
     checkText(tags, "a list of tags");
     if (tagsOf(tags) != verdict.tags) {
-        throw Error(ErrorKind::parameter, "tags are told once each, and have no comma and no blank at their ends");
+        throw Error(ErrorKind::parameter, "each tag is given once, without commas and without blanks at its ends");
     }
 }
 
@@ -131,8 +131,7 @@ void checkZone(const StoredZone& zone) {
         throw Error(ErrorKind::parameter, "zone \"" + zone.zone.name + "\" belongs to frame " +
                                               std::to_string(zone.zone.frame) + ", which no video has");
     }
-    if (zone.colour < StoredZone::kColourByNumber || zone.colour > 0xffffff)
-        refuseStep(who + " has a colour that is none");
+    if (zone.colour < StoredZone::kColourByNumber || zone.colour > 0xffffff) refuseStep(who + " has an invalid colour");
     if (zone.zone.name.empty()) throw Error(ErrorKind::parameter, "a zone needs a name");
     checkText(zone.zone.name, "a name of a zone");
     checkText(zone.person, "a name");
@@ -149,7 +148,7 @@ void checkZone(const StoredZone& zone) {
 void checkBookmark(const Bookmark& bookmark) {
     const std::string who = "bookmark " + std::to_string(bookmark.id);
     if (bookmark.id < 1) refuseStep(who + " has no number above 0");
-    if (bookmark.frame < 0 || bookmark.frame > kLastFrame) refuseStep(who + " has a frame that is none");
+    if (bookmark.frame < 0 || bookmark.frame > kLastFrame) refuseStep(who + " has an invalid frame");
     checkTime(bookmark.seconds, who);
     if (bookmark.place) checkPoint(*bookmark.place, who);
     checkText(bookmark.note, "a note");

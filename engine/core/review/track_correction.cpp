@@ -48,11 +48,11 @@ bool areSightings(const std::vector<Sighting>& sightings) {
 
 void checkCorrection(const TrackCorrection& correction) {
     if (correction.id < 1) refuseCorrection(correction, "has no number above 0");
-    if (correction.frame < 0 || correction.frame > kLastFrame) refuseCorrection(correction, "has a frame that is none");
+    if (correction.frame < 0 || correction.frame > kLastFrame) refuseCorrection(correction, "has an invalid frame");
     if (correction.track.empty() || !areSightings(correction.track) || !areSightings(correction.other))
-        refuseCorrection(correction, "has boxes that are none");
+        refuseCorrection(correction, "has invalid boxes");
     if (correction.other.empty() != (correction.kind != CorrectionKind::join))
-        refuseCorrection(correction, "is not about as many tracks as it should be");
+        refuseCorrection(correction, "names the wrong number of tracks");
     const FrameIndex first = correction.track.front().frame;
     const FrameIndex last = correction.track.back().frame;
     if (correction.kind == CorrectionKind::split && (first >= correction.frame || last < correction.frame))

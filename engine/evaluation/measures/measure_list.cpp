@@ -92,9 +92,11 @@ void listBoxErrors(List& list, const BoxErrors& e) {
     list.real("centre_error_px", "centre error, px", "mean distance of the centres", known(e.centre_px), 2,
               Better::lower);
     list.real("length_error_px", "length error, px", "mean absolute", known(e.length_px), 2, Better::lower);
-    list.real("length_bias_px", "length bias, px", "mean of result - truth", known(e.length_bias_px), 2, Better::lower);
+    list.real("length_bias_px", "length bias, px", "mean of result - ground truth", known(e.length_bias_px), 2,
+              Better::lower);
     list.real("width_error_px", "width error, px", "mean absolute", known(e.width_px), 2, Better::lower);
-    list.real("width_bias_px", "width bias, px", "mean of result - truth", known(e.width_bias_px), 2, Better::lower);
+    list.real("width_bias_px", "width bias, px", "mean of result - ground truth", known(e.width_bias_px), 2,
+              Better::lower);
     list.real("heading_error_deg", "heading error, deg", "mean absolute, front and rear distinguished",
               heading(e.heading_degrees), 2, Better::lower);
     list.real("axis_error_deg", "axis error, deg", "mean absolute, modulo 180", heading(e.heading_axis_degrees), 2,

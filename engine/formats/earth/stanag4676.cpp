@@ -53,12 +53,12 @@ void writeStanag4676(const LabelFile& labels, const std::filesystem::path& path,
     placed.tell(report);
     if (without_height > 0)
         report.notes.push_back(counted(without_height, "position has", "positions have") +
-                               " the height 0, as the metadata tell none");
+                               " the height 0, as the metadata give none");
     if (above_sea > 0)
         report.notes.push_back(counted(above_sea, "height is", "heights are") +
-                               " above the sea and not above the ellipsoid, as the metadata tell no other");
+                               " above the sea and not above the ellipsoid, as the metadata give no other");
     report.notes.push_back(
-        "written after what is publicly known of Edition B; not checked against its schema, and without a "
+        "written from what is publicly known about Edition B; not checked against its schema, and without a "
         "confidentiality label");
 }
 

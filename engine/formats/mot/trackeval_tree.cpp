@@ -141,7 +141,7 @@ void writeTree(const LabelFile& labels, const fs::path& root, const ExportOption
         makeFolder(places.result.parent_path());
         report.add(
             LossKind::other, cutBehindEnd(dense.boxes, places.seqinfo),
-            "lie behind the last frame of the sequence's ground truth and were left out, as TrackEval refuses them");
+            "lie after the last frame of the sequence's ground truth and were left out, as TrackEval refuses them");
         writeMotResult(places.result, framesOf(dense.boxes), write);
         report.files.push_back(places.result);
     } else {

@@ -19,7 +19,8 @@ LabelFile readVivid(const std::filesystem::path& path, const ImportOptions&) {
             header = false;
             return;
         }
-        if (line.size() != 7) line.fail(0, std::to_string(line.size()) + " columns, expected the 7 of VIVID truth");
+        if (line.size() != 7)
+            line.fail(0, std::to_string(line.size()) + " columns, expected the 7 of VIVID ground truth");
         LabelBox record;
         const std::string text = withoutFormulaGuard(line.word(0, "text"));
         record.frame = line.frame(1, 0);
@@ -60,7 +61,7 @@ void writeVivid(const LabelStream& labels, const std::filesystem::path& path, co
 
 LabelFormat vividFormat() {
     LabelFormat format;
-    format.info = {"vivid", "VIVID truth (CSV)", {"csv"}, false, true, true, {}};
+    format.info = {"vivid", "VIVID ground truth (CSV)", {"csv"}, false, true, true, {}};
     format.info.carries = {.id = true, .ignore = true};
     format.needs_id = true;
     format.read = readVivid;

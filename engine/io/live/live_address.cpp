@@ -34,7 +34,7 @@ std::string faultOfPort(const std::string& scheme, const std::string& place) {
     const char* end = place.data() + place.size();
     const auto [after, failed] = std::from_chars(place.data() + colon + 1, end, port);
     if (failed == std::errc{} && after == end && port >= 1 && port <= kHighestPort) return {};
-    return "“" + place.substr(colon + 1) + "” is no port; it is a number from 1 to " + std::to_string(kHighestPort);
+    return "“" + place.substr(colon + 1) + "” is not a port; it is a number from 1 to " + std::to_string(kHighestPort);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ std::string secondsText(double seconds) {
 std::string scaleText(const ReviewReportInput& input) {
     const RunRecord& run = input.reviewed.run;
     std::string text = describe(run.scale, run.scale_basis, run.sequence.size);
-    if (!run.scale.gsd_known) text = "not known; the search worked with " + text + ", and no speeds in km/h are told";
+    if (!run.scale.gsd_known) text = "not known; the search worked with " + text + ", and no speeds in km/h are given";
     return text + (input.scale_remark.empty() ? "" : "; " + input.scale_remark);
 }
 
@@ -143,7 +143,7 @@ void tellReviewedVideo(ReportPage& page, const ReviewScene& scene) {
     fact("Tracks", input.choice.uncorrected ? "as the machine found them, corrections left out"
                    : corrections.empty()    ? "as the machine found them"
                                             : "as people corrected them: " + corrections);
-    fact("Told here", std::to_string(countOfEvents(input)) + ": " + chosenText(input.choice));
+    fact("Reported here", std::to_string(countOfEvents(input)) + ": " + chosenText(input.choice));
     if (!input.made_utc.empty()) fact("Report made", input.made_utc);
     page.endTable();
     tellDifferentParameters(page, input.parameters);

@@ -8,7 +8,7 @@
 
 namespace eyrie::ui::label_help_test {
 
-/// What takes work off the annotator: identity verbs, proposals, tracking, chips and stacks.
+/// What takes work off the annotator: identity edits, proposals, tracking, chips and stacks.
 class LabelHelpTest : public QObject, test::Labelling {
     Q_OBJECT
 

@@ -152,6 +152,25 @@ class EventsListTest : public QObject {
         QCOMPARE(title(), QStringLiteral("Time"));
     }
 
+    void whoJudgedAndWhenIsInTheTip() {
+        EventsModel model;
+        give(model, found(someEvents()));
+        const auto tip = [&model](int row) {
+            return model.index(row, EventsModel::kind_column).data(Qt::ToolTipRole).toString();
+        };
+        verdicts_[0].person = "Anna";
+        verdicts_[0].when_utc = "2001-03-04T12:00:00Z";
+        judge(model, 0, Judgement::relevant);
+        QVERIFY2(tip(0).contains(QStringLiteral("\nRelevant: Anna, ")), qPrintable(tip(0)));
+        QVERIFY2(tip(0).contains(QStringLiteral("2001")), qPrintable(tip(0)));
+        QVERIFY2(!tip(1).contains(QStringLiteral("Anna")), qPrintable(tip(1)));
+        judge(model, 0, Judgement::open);  // its note or star is hers still
+        QVERIFY2(tip(0).contains(QStringLiteral("\nAnna, ")), qPrintable(tip(0)));
+        verdicts_[1].person.clear();
+        judge(model, 1, Judgement::unsure);
+        QVERIFY2(tip(1).endsWith(QStringLiteral("\nUnsure")), qPrintable(tip(1)));
+    }
+
     void hiddenEventsAreCounted() {
         EventsModel model;
         EventsPanel panel(&model, *actions_);

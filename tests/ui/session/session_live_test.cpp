@@ -166,7 +166,7 @@ class SessionLiveTest : public QObject {
         QSignalSpy refused(&session, &ProjectSession::liveRefused);
         session.watchLive(source.request);
         QVERIFY(refused.wait(kPatience_ms));
-        QVERIFY(refused.at(0).at(0).toString().contains(QStringLiteral("is there already")));
+        QVERIFY(refused.at(0).at(0).toString().contains(QStringLiteral("exists already")));
         QCOMPARE(fs::file_size(*home_ / "mine.ts"), size);
     }
 

@@ -199,7 +199,7 @@ class CorrectingWindowTest : public QObject {
             // Again, it is there.
             QTest::keyClick(&window->canvas(), Qt::Key_Insert);
             drag(*window, middle.state.box);
-            QVERIFY(tells(*window, tr("Track %1 is there already.").arg(added)));
+            QVERIFY(tells(*window, tr("Track %1 already follows this vehicle.").arg(added)));
             // Taken back, and brought back.
             QTest::keyClick(&window->canvas(), Qt::Key_Z);
             QVERIFY(waitForTracks(*window, all - 1));
@@ -383,7 +383,7 @@ class CorrectingWindowTest : public QObject {
                 window->session().selectTrack(one.id);
                 QTest::keyClick(&window->canvas(), Qt::Key_J, Qt::ShiftModifier);
                 window->session().selectTrack(other.id);
-                QVERIFY(tells(*window, QStringLiteral("in different places at one time")));
+                QVERIFY(tells(*window, QStringLiteral("in different places at the same time")));
                 QCOMPARE(tracks(*window).size(), all.size());
                 return;
             }

@@ -127,7 +127,7 @@ class GroundControlTest : public QObject {
     void whatIsWrongIsSaidPlainly() {
         const auto window = test::windowWithRun();
         QVERIFY(window);
-        QVERIFY(says(*window, QStringLiteral("four places or more")));
+        QVERIFY(says(*window, QStringLiteral("at least four places")));
         for (const QPointF& px : {QPointF(20, 20), QPointF(100, 60), QPointF(180, 100)}) set(*window, px);
         QVERIFY(says(*window, QStringLiteral("3 control points that the registration connects; four are needed")));
         set(*window, {220, 120});

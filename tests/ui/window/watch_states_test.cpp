@@ -94,12 +94,12 @@ class WatchStatesTest : public QObject {
         window->session().startRun();
         QTRY_VERIFY_WITH_TIMEOUT(door.reached() >= 20, kPatience_ms);
         window->actions().only_moving->trigger();
-        QVERIFY(tells(*window, QStringLiteral("still at work")));
+        QVERIFY(tells(*window, QStringLiteral("The run is still running")));
         QVERIFY(!window->session().playback().spans());
         door.open();
         QVERIFY(finished.wait(kPatience_ms));
         QTRY_VERIFY_WITH_TIMEOUT(window->session().playback().spans().has_value(), kPatience_ms);
-        QVERIFY(!tells(*window, QStringLiteral("still at work")));
+        QVERIFY(!tells(*window, QStringLiteral("The run is still running")));
     }
 
     void theGroundIsKnownInAWindowThatBeginsWithTuning() {

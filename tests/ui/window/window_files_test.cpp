@@ -99,7 +99,8 @@ class WindowFilesTest : public QObject {
             QVERIFY(runs(window, folder));
             QVERIFY(says(window, asked));
             QVERIFY(QApplication::activeModalWidget() == nullptr);
-            QVERIFY(waitFor([&] { return says(window, QStringLiteral("Nobody said the frame rate: 25 per second")); }));
+            QVERIFY(waitFor(
+                [&] { return says(window, QStringLiteral("The frame rate is not known: 25 frames per second")); }));
             auto* rate = window.findChild<QDoubleSpinBox*>(QStringLiteral("frame_rate"));
             QCOMPARE(rate->suffix(), QStringLiteral(" fps?"));
             const auto status = [&] {

@@ -24,7 +24,7 @@ QColor colourOfMarks(bool dark) {
 std::optional<QString> askWithDialog(const QString& note, FrameIndex frame) {
     bool accepted = false;
     const QString text = QInputDialog::getText(QApplication::activeWindow(), QObject::tr("Bookmark"),
-                                               QObject::tr("What is to be seen in frame %1:").arg(frame),
+                                               QObject::tr("What can be seen in frame %1:").arg(frame),
                                                QLineEdit::Normal, note, &accepted);
     return accepted ? std::optional(text.trimmed()) : std::nullopt;
 }

@@ -18,10 +18,10 @@ BookmarksPanel::BookmarksPanel(BookmarksModel* model, QWidget* parent)
 
 void BookmarksPanel::explainNothing(bool can_add, const QString& keys) {
     if (can_add)
-        emptyState()->setTexts(
-            tr("No bookmark yet. %1 marks the frame that is shown, with a note; the mark stands on the timeline, too.")
-                .arg(keys),
-            tr("Mark this frame"));
+        emptyState()->setTexts(tr("No bookmark yet. %1 marks the frame that is shown, with a note; the mark is shown "
+                                  "on the timeline, too.")
+                                   .arg(keys),
+                               tr("Mark this frame"));
     else
         emptyState()->setTexts(
             tr("Frames that were marked with a note are listed here. They are kept beside the verdicts "

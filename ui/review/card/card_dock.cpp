@@ -57,6 +57,7 @@ std::optional<CardSubject> CardDock::subjectOf(int id) const {
     subject.event = id;
     subject.note = entry->note;
     subject.tags = parts_.events.tagsOn(id);
+    subject.judged = judgedText(entry->judgement, entry->person, entry->judged_utc);
     subject.track = event != nullptr && !event->tracks.empty() ? event->tracks.front() : 0;
     subject.frame = found->frameAt(entry->position);
     return subject;
@@ -82,9 +83,9 @@ void CardDock::showSelection() {
     const TrackSummary* summary = parts_.session.trackSummary(*track);
     CardSubject subject;
     subject.title = summary != nullptr && summary->doubtful
-                        ? tr("Track %1 · left out of the result for its score; its way is not worked out").arg(*track)
+                        ? tr("Track %1 · left out of the result for its score; its path is not worked out").arg(*track)
                     : summary != nullptr && summary->corrected == CorrectionKind::reject
-                        ? tr("Track %1 · rejected; its way is not worked out").arg(*track)
+                        ? tr("Track %1 · rejected; its path is not worked out").arg(*track)
                         : tr("Track %1").arg(*track);
     subject.track = *track;
     subject.frame = parts_.session.currentFrame();

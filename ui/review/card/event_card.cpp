@@ -21,7 +21,7 @@ constexpr int kSpeedLines = 9;  ///< greatest height of the sketch of the speed,
 
 EventCard::EventCard(QWidget* parent) : QWidget(parent), loop_(kChipPeriod_ms, [this] { nextChip(); }) {
     auto* empty = new EmptyState;
-    empty->setTexts(tr("Select an event or a track: its vehicle in a loop, its speed and its way are shown here."));
+    empty->setTexts(tr("Select an event or a track: its vehicle in a loop, its speed and its path are shown here."));
     title_ = new QLabel;
     title_->setWordWrap(true);
     picture_ = new QLabel;
@@ -43,6 +43,9 @@ EventCard::EventCard(QWidget* parent) : QWidget(parent), loop_(kChipPeriod_ms, [
     tags_->setMaxLength(kLongestNote);
     tags_->setPlaceholderText(tr("Tags: gate 3, lorry"));
     tags_->setAccessibleName(tr("Tags"));
+    judged_ = new QLabel;
+    judged_->setWordWrap(true);
+    judged_->setTextFormat(Qt::PlainText);
     auto* card = new QWidget;
     auto* grid = new QGridLayout(card);
     grid->setContentsMargins(6, 6, 6, 6);
@@ -57,8 +60,9 @@ EventCard::EventCard(QWidget* parent) : QWidget(parent), loop_(kChipPeriod_ms, [
     grid->addWidget(speed_, 2, 0, 1, 2);
     grid->addWidget(note_, 3, 0, 1, 2);
     grid->addWidget(tags_, 4, 0, 1, 2);
+    grid->addWidget(judged_, 5, 0, 1, 2);
     grid->setRowStretch(2, 4);
-    grid->setRowStretch(5, 1);
+    grid->setRowStretch(6, 1);
     grid->setColumnStretch(1, 1);
     stack_ = new QStackedLayout(this);
     stack_->addWidget(empty);
@@ -95,6 +99,8 @@ void EventCard::show(const std::optional<CardSubject>& subject) {
     note_->setCursorPosition(0);
     tags_->setVisible(subject->event != 0);
     tags_->setText(subject->tags);
+    judged_->setVisible(!subject->judged.isEmpty());
+    judged_->setText(subject->judged);
 }
 
 void EventCard::setStory(const std::shared_ptr<const VehicleStory>& story, const SceneScale& scale) {

@@ -20,7 +20,8 @@ struct CardSubject {
     QString title;  ///< "Stops · 0:12.4 · track 7"
     int event = 0;  ///< 0: a track that no event was chosen of, which has no note
     QString note;
-    QString tags;  ///< "gate 3, lorry"
+    QString tags;    ///< "gate 3, lorry"
+    QString judged;  ///< "Relevant: Anna, 14:03"; empty where nothing was said
     TrackId track = 0;
     FrameIndex frame = 0;
 
@@ -34,8 +35,8 @@ struct CardCommands {
     std::function<void(int event, const QString& tags)> write_tags = [](int, const QString&) {};
 };
 
-/// One event, or track, at a glance: its vehicle in a loop and stacked, how fast it was, which way it drove, and note
-/// and tags on it.
+/// One event, or track, at a glance: its vehicle in a loop and stacked, how fast it was, which way it drove, note and
+/// tags on it, and who judged it.
 class EventCard : public QWidget {
     Q_OBJECT
 
@@ -58,6 +59,7 @@ class EventCard : public QWidget {
     QLabel& stacked() { return *stacked_; }
     QLineEdit& note() { return *note_; }
     QLineEdit& tags() { return *tags_; }
+    QLabel& judged() { return *judged_; }
     /// The number of the chip shown; it goes on by itself.
     std::size_t chip() const { return chip_; }
 
@@ -80,6 +82,7 @@ class EventCard : public QWidget {
     StorySketch* way_;
     QLineEdit* note_;
     QLineEdit* tags_;
+    QLabel* judged_;
     RepeatedCall loop_;
 };
 

@@ -20,10 +20,10 @@ const QColor kSketchMark(255, 170, 30);
 
 StorySketch::StorySketch(Kind kind, QWidget* parent) : QWidget(parent), kind_(kind) {
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
-    setAccessibleName(kind == Kind::speed ? tr("Speed over time") : tr("Way over the ground"));
+    setAccessibleName(kind == Kind::speed ? tr("Speed over time") : tr("Path over the ground"));
     setToolTip(kind == Kind::speed
-                   ? tr("Speed over time; a click goes there")
-                   : tr("Way over the ground, turned as the frame in which that begins; a click goes there"));
+                   ? tr("Speed over time; click to go there")
+                   : tr("Path over the ground, turned as in the frame in which it begins; click to go there"));
 }
 
 QSize StorySketch::sizeHint() const {

@@ -60,7 +60,7 @@ struct TrackCorrecting::Trial {
         std::vector<TrackFrame> states = trackStates(store, run.id, track, corrected);
         if (states.empty())
             throw Error(ErrorKind::parameter, "track " + std::to_string(track) +
-                                                  " is no part of the run's result (its score kept it out); only "
+                                                  " is not part of the run's result (its score kept it out); only "
                                                   "tracks of the result are joined, split and rejected");
         return states;
     }
@@ -213,12 +213,12 @@ void TrackCorrecting::tellRefused(const Tried& tried) {
     switch (tried.state) {
         case CorrectionState::covered:
             warn(tried.refused.kind == CorrectionKind::add
-                     ? tr("Track %1 has this vehicle for most of the time already; nothing was added.")
+                     ? tr("Track %1 already follows this vehicle most of the time; nothing was added.")
                            .arg(tried.covering)
-                     : tr("It is so already."));
+                     : tr("That is already the case; nothing was changed."));
             return;
         case CorrectionState::apart:
-            warn(tr("The two tracks are in different places at one time, so they cannot be of one vehicle."));
+            warn(tr("The two tracks are in different places at the same time, so they cannot be the same vehicle."));
             return;
         default:
             warn(tr("Nothing was changed: %1.").arg(QString::fromUtf8(nameOf(tried.state))));
@@ -242,7 +242,7 @@ void TrackCorrecting::startJoin(bool wanted) {
     parts_.session.playback().pause();
     parts_.messages.showTopic(
         kCorrectingTopic, MessageKind::info,
-        tr("Click the track that is of the same vehicle as track %1, in the video or in the list.").arg(*selected),
+        tr("Click the track that follows the same vehicle as track %1, in the video or in the list.").arg(*selected),
         tr("Cancel"), [this] { endJoin(); });
 }
 
@@ -372,7 +372,7 @@ void TrackCorrecting::follow(const OrientedBox& box) {
         for (const TrackState& state : shown.result->tracks)
             if (overlap(state.box, box) > kThereAlready && state.status != TrackStatus::tentative) {
                 parts_.session.selectTrack(state.id);
-                return warn(tr("Track %1 is there already.").arg(state.id));
+                return warn(tr("Track %1 already follows this vehicle.").arg(state.id));
             }
     const FrameIndex frame = shown.index;
     const auto make = [this, box, frame, tracks, media = *parts_.session.media()](const Trial& trial) {
@@ -390,9 +390,10 @@ void TrackCorrecting::follow(const OrientedBox& box) {
         vehicle =
             followBothWays(box, frame, footage.first_frame, footage.last_frame, gray, footage.camera, progress, stop);
         if (vehicle.sightings.size() < 2)
-            throw Error(ErrorKind::parameter,
-                        "the vehicle could be followed to no other frame (" + vehicle.ended_after +
-                            "); draw the box closely, or in a frame in which it is seen better, or set a bookmark");
+            throw Error(
+                ErrorKind::parameter,
+                "the vehicle could not be followed to any other frame (" + vehicle.ended_after +
+                    "); draw a tighter box, draw it in a frame that shows the vehicle better, or set a bookmark");
         return std::vector{additionOf(vehicle.sightings, frame)};
     };
     attempt(tr("Add a track"), make, [this](const Tried& tried) {

@@ -98,7 +98,7 @@ void VehicleBoxTool::paint(QPainter& painter, const CanvasPlace& place) const {
                 {place.transform.viewFromImage(corners[i]), place.transform.viewFromImage(corners[(i + 1) % 4])});
         drawEdgedLines(painter, lines, {kBoxDraft, kBoxEdge, 1.8});
     }
-    paintToolHint(painter, place.view, tr("Drag a box closely around the vehicle. Esc: give up"));
+    paintToolHint(painter, place.view, tr("Drag a tight box around the vehicle. Esc: cancel"));
 }
 
 }  // namespace eyrie::ui

@@ -157,8 +157,8 @@ void ControlPointTool::paint(QPainter& painter, const CanvasPlace& place) const 
     }
     if (draft_) cross(*draft_, Qt::white, Qt::SolidLine);
     paintToolHint(painter, place.view,
-                  tr("Click a place that a map shows, too: its latitude and longitude are asked for. Drag a point to "
-                     "move it · Z: undo · Esc: done"));
+                  tr("Click a place that a map also shows, then enter its latitude and longitude. Drag a point to move "
+                     "it · Z: undo · Esc: done"));
 }
 
 }  // namespace eyrie::ui

@@ -50,7 +50,7 @@ QVariant ControlPointsModel::headerData(int section, Qt::Orientation orientation
     const bool tip = role == Qt::ToolTipRole;
     switch (section) {
         case number_column:
-            return tip ? tr("As it stands beside the cross in the picture") : tr("No.");
+            return tip ? tr("As shown beside the cross in the picture") : tr("No.");
         case frame_column:
             return tip ? tr("Where it was set") : tr("Frame");
         case place_column:

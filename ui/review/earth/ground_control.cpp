@@ -29,7 +29,7 @@ namespace {
 const QString kControlTopic = QStringLiteral("ground control");
 
 QString noPlaceText(const QString& text) {
-    return QObject::tr("“%1” is no place: write latitude and longitude in degrees, such as 48.137154, 11.576124.")
+    return QObject::tr("“%1” is not a place: enter latitude and longitude in degrees, such as 48.137154, 11.576124.")
         .arg(text);
 }
 
@@ -219,8 +219,8 @@ void GroundControl::store(std::vector<ControlPoint> after) {
             const bool stored = exchangeControlPoints(project, ensureSequence(project, sequence), before, after);
             task.tell([settle, stored] {
                 settle(stored ? QString()
-                              : tr("The control points were changed by another program meanwhile; what it made of them "
-                                   "is shown now, and this change was not made."));
+                              : tr("The control points were changed by another program in the meantime; its version is "
+                                   "shown now, and your change was not made."));
             });
         },
         settle);
@@ -255,8 +255,8 @@ void GroundControl::showPoints() {
 
 void GroundControl::showState() {
     if (points_.empty()) {
-        panel_->setState(tr("Ground control by hand: find four places or more that a map shows, too, not on a line and "
-                            "near the corners of the picture. It counts before the metadata."),
+        panel_->setState(tr("Ground control by hand: find at least four places that a map also shows, not on one line "
+                            "and near the corners of the picture. It takes precedence over the metadata."),
                          false);
         return;
     }

@@ -115,10 +115,10 @@ void MetadataPanel::showSummary() {
 void MetadataPanel::explainNothing() {
     const auto& found = earth_.metadata();
     const QString by_hand =
-        QLatin1String("\n\n") + tr("Where it was taken can be told by hand, with control points: see below.");
+        QLatin1String("\n\n") + tr("You can set where it was taken by hand, with control points: see below.");
     if (!session_.media())
         emptyState()->setTexts(
-            tr("What a video says of its camera is listed here: time, place, angles and scale at the frame shown."));
+            tr("What a video says about its camera is listed here: time, place, angles and scale at the frame shown."));
     else if (!found)
         emptyState()->setTexts(tr("Looking for metadata: %1 %").arg(static_cast<int>(100 * earth_.readShare())));
     else if (!found->metadata && found->streams.empty())

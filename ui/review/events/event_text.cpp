@@ -113,6 +113,15 @@ QString judgementText(Judgement judgement) {
     return capitalised(QString::fromLatin1(nameOf(judgement)));
 }
 
+QString judgedText(Judgement judgement, const QString& person, const std::string& utc) {
+    QStringList by;
+    if (!person.isEmpty()) by << person;
+    if (!utc.empty()) by << localTimeText(utc);
+    const QString who = by.join(QStringLiteral(", "));
+    const QString verdict = judgementText(judgement);
+    return verdict.isEmpty() || who.isEmpty() ? verdict + who : verdict + QStringLiteral(": ") + who;
+}
+
 QColor judgementColour(Judgement judgement, bool dark) {
     switch (judgement) {
         case Judgement::open:

@@ -3,6 +3,7 @@
 #include <QColor>
 #include <QIcon>
 #include <QString>
+#include <string>
 
 #include "review/events/found_events.h"
 
@@ -21,11 +22,14 @@ QString eventClockText(const FoundEvents& found, std::size_t position);
 QString eventTracksText(const FoundEvents& found, std::size_t position);
 /// "43 km/h"; of what has no figure, how long it lasts.
 QString eventFigureText(const FoundEvents& found, std::size_t position);
-/// Kind, zone and sense, number, frames and place in the queue, for tooltips.
+/// Kind, zone and sense, number, frames and place in the queue, for tooltips. Without what was said about it.
 QString eventTipText(const FoundEvents& found, std::size_t position);
 
 /// "Relevant"; empty while it is not judged.
 QString judgementText(Judgement judgement);
+/// "Relevant: Anna, 4 Mar 2026 14:03", who said it and when (`utc`: ISO 8601); without a judgement "Anna, 14:03". As
+/// much of it as is known; empty where nothing was said.
+QString judgedText(Judgement judgement, const QString& person, const std::string& utc);
 /// Told apart from each other on light and dark grounds, and by shape, too, where drawn as icons.
 QColor judgementColour(Judgement judgement, bool dark);
 QIcon judgementIcon(Judgement judgement, bool dark);

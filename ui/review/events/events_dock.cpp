@@ -201,11 +201,12 @@ void EventsDock::explainNothing() {
             text = tr("Events could not be read; the message above the video says why.");
             break;
         case EventReview::State::found:
-            text = !review_->found()->run->tracks.empty() ? tr("Nothing that happened is an event by these limits.")
+            text = !review_->found()->run->tracks.empty()
+                       ? tr("Nothing that happened counts as an event with these limits.")
                    : !review_->found()->run->corrections.rejected.empty()
-                       ? tr("All tracks are rejected; the list of tracks has them still.")
+                       ? tr("All tracks are rejected; the list of tracks still has them.")
                    : parts_.session.runData() ? whyNoTracks(parts_.session.runData()->facts)
-                                              : tr("Nothing that happened is an event by these limits.");
+                                              : tr("Nothing that happened counts as an event with these limits.");
             break;
     }
     panel_->emptyState()->setTexts(text);
@@ -243,9 +244,7 @@ QString EventsDock::markText(int id) const {
     if (Bookmarks::isBookmark(id)) return bookmarks_->markText(id);
     const auto place = placeOf(id);
     if (!place || !model_->found()) return {};
-    const QString verdict = judgementText(model_->recordAt(static_cast<int>(*place))->judgement);
-    const QModelIndex event = model_->index(static_cast<int>(*place), EventsModel::time_column);
-    return event.data(Qt::ToolTipRole).toString() + (verdict.isEmpty() ? QString() : QLatin1Char('\n') + verdict);
+    return model_->tipOf(*model_->recordAt(static_cast<int>(*place)));
 }
 
 void EventsDock::enableActions() {

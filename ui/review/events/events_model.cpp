@@ -13,6 +13,8 @@ void takeOver(EventEntry& entry, const Verdict* verdict) {
     entry.judgement = verdict != nullptr ? verdict->judgement : Judgement::open;
     entry.starred = verdict != nullptr && verdict->starred;
     entry.note = verdict != nullptr ? QString::fromStdString(verdict->note) : QString();
+    entry.person = verdict != nullptr ? QString::fromStdString(verdict->person) : QString();
+    entry.judged_utc = verdict != nullptr ? verdict->when_utc : std::string();
 }
 
 }  // namespace
@@ -22,7 +24,7 @@ void EventsModel::setEvents(const std::shared_ptr<const FoundEvents>& found,
     std::vector<EventEntry> entries;
     std::map<EventIdentity, int> doubles;
     for (std::size_t i = 0; found && i < found->queue.size(); ++i) {
-        entries.push_back({idAt(*found, i, doubles), i, Judgement::open, false, {}});
+        entries.push_back({idAt(*found, i, doubles), i, Judgement::open, false, {}, {}, {}});
         takeOver(entries.back(), verdict_at(i));
     }
     found_ = found;
@@ -89,6 +91,11 @@ QVariant EventsModel::data(const QModelIndex& index, int role) const {
     }
 }
 
+QString EventsModel::tipOf(const EventEntry& entry) const {
+    const QString said = judgedText(entry.judgement, entry.person, entry.judged_utc);
+    return eventTipText(*found_, entry.position) + (said.isEmpty() ? QString() : QLatin1Char('\n') + said);
+}
+
 QString EventsModel::textOf(const EventEntry& entry, int column) const {
     switch (column) {
         case number_column:
@@ -147,8 +154,8 @@ QVariant EventsModel::headerData(int section, Qt::Orientation orientation, int r
     const bool tip = role == Qt::ToolTipRole;
     switch (section) {
         case number_column:
-            return tip ? tr("Number of the event, as eyrie-cli has it with the same limits. ★: starred. The list "
-                            "stands in the order in which to look; a third click on a heading brings that back")
+            return tip ? tr("Number of the event, as eyrie-cli lists it with the same limits. ★: starred. The list is "
+                            "in the order in which to review it; a third click on a heading brings that back")
                        : tr("#");
         case time_column:
             if (clock_.known()) return tip ? tr("When it begins, by %1").arg(clock_.origin()) : tr("Time (UTC)");

@@ -3,6 +3,7 @@
 #include <QString>
 #include <functional>
 #include <map>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct EventEntry {
     Judgement judgement = Judgement::open;
     bool starred = false;
     QString note;
+    QString person;          ///< who said it last; empty: nobody, or nobody knows
+    std::string judged_utc;  ///< and when, ISO 8601
 };
 
 /// The events of a run in the order of the queue, one row each. Texts are made when they are shown.
@@ -49,6 +52,8 @@ class EventsModel : public RecordModel<EventEntry> {
     /// Icons for a light or a dark ground.
     void setDark(bool dark);
     const std::shared_ptr<const FoundEvents>& found() const { return found_; }
+    /// What an entry is, and what was said about it by whom, for tooltips. Of an entry of found().
+    QString tipOf(const EventEntry& entry) const;
     /// Ids are forgotten: what comes belongs to another run.
     void forgetIds();
 

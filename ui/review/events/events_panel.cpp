@@ -214,11 +214,13 @@ QString EventsPanel::headerText() const {
 void EventsPanel::showHeader() {
     header_->setText(headerText());
     QStringList tips;
-    if (seen_) tips << tr("Seen is what was shown at four times the speed or slower, with the window in front.");
+    if (seen_)
+        tips << tr(
+            "Frames count as seen when they were shown at four times the speed or slower, with the window in front.");
     if (!left_corrections_.isEmpty())
-        tips << tr("What was done to tracks and does not fit this run is kept: %1.")
+        tips << tr("Corrections of tracks that do not fit this run are kept: %1.")
                     .arg(left_corrections_.join(QStringLiteral("; ")));
-    if (left_ > 0) tips << tr("Verdicts on this video for which this run, with these limits, has no event, are kept.");
+    if (left_ > 0) tips << tr("Verdicts on this video that match no event of this run, with these limits, are kept.");
     header_->setToolTip(tips.join(QLatin1Char('\n')));
 }
 

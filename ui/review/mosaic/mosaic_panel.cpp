@@ -117,8 +117,8 @@ void MosaicPanel::explainNothing() {
         return;
     }
     empty_->setTexts(
-        tr("The ground that a run saw is laid out here once it has finished, with the ways of all tracks. A "
-           "click on a place tells when it was seen and who crossed it."));
+        tr("The ground that a run saw is laid out here once it has finished, with the paths of all tracks. Click a "
+           "place to see when it was in the picture and which tracks crossed it."));
 }
 
 QString MosaicPanel::headerText() const {
@@ -146,7 +146,7 @@ void MosaicPanel::showFrame() {
     const int sheet = here >= 0 ? here : std::max(0, view_->sheet());
     if (sheet != view_->sheet()) {
         list_->clear();
-        place_->setText(tr("Click a place: when it was seen, who crossed it."));
+        place_->setText(tr("Click a place to see when it was in the picture and which tracks crossed it."));
     }
     view_->show(mosaic, sheet);
     view_->setFrame(frame);

@@ -81,7 +81,7 @@ void LikeTracks::fail(const QString& text) {
     parts_.panel.listLike(std::nullopt);
     parts_.messages.showTopic(
         kLikeTopic, MessageKind::warning,
-        tr("No tracks like this one can be told: %1. Choose one that is not tentative or left out.").arg(text));
+        tr("Tracks like this one cannot be listed: %1. Choose one that is not tentative or left out.").arg(text));
 }
 
 }  // namespace eyrie::ui

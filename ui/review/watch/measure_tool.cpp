@@ -98,7 +98,7 @@ QString MeasureTool::text() const {
         return ground_.ground()
                    ? tr("The ground of frame %1 is not connected with that of this one: nothing to measure by")
                          .arg(from_->frame)
-                   : tr("To measure across frames takes a finished run, which tells how the ground moves");
+                   : tr("Measuring across frames needs a finished run, which knows how the ground moves");
     const SceneScale scale = session_.scale();
     const QString length =
         scale.gsd_known ? metresText(measure->metres) : QStringLiteral("%1 px").arg(numberText(measure->px, 1));

@@ -100,11 +100,11 @@ QString WatchCommands::whyAllIsPlayed() const {
     const auto& run = parts_.session.runData();
     if (parts_.session.running() || (run && run->record.live))
         return tr(
-            "The run is still at work. Where something moves is known once it has finished; until then all is "
+            "The run is still running; where something moves is known once it has finished. Until then everything is "
             "played.");
     if (!parts_.session.currentRun())
-        return tr("Where something moves is known once a run has finished; until then all is played.");
-    return tr("Where something moves is not worked out yet; until then all is played.");
+        return tr("Where something moves is known once a run has finished; until then everything is played.");
+    return tr("Where something moves is not known yet; until then everything is played.");
 }
 
 void WatchCommands::followSensitivity() {

@@ -220,9 +220,9 @@ void ZoneReview::showZones() {
 
 QString ZoneReview::hintText() const {
     if (!parts_.review.canMark())
-        return tr("Zones and lines are drawn over a finished run, which tells how the ground moves.");
+        return tr("Zones and lines are drawn over a finished run, which knows how the ground moves.");
     return tr(
-        "Draw an area or a line, and the list tells who enters, leaves or crosses it. Both are kept in the "
+        "Draw an area or a line, and the list shows which vehicles enter, leave or cross it. Both are kept in the "
         "project, and the command line watches them, too.");
 }
 

@@ -158,8 +158,8 @@ void ZoneTool::paint(QPainter& painter, const CanvasPlace& place) const {
 void ZoneTool::paintHint(QPainter& painter, const QRectF& view) const {
     const QString text =
         *shape_ == ZoneShape::area
-            ? tr("Click the corners. Double-click or Enter: done · Backspace: take one back · Esc: give up")
-            : tr("Click along the line. Double-click or Enter: done · Backspace: take one back · Esc: give up");
+            ? tr("Click the corners. Double-click or Enter: done · Backspace: remove the last one · Esc: cancel")
+            : tr("Click along the line. Double-click or Enter: done · Backspace: remove the last one · Esc: cancel");
     paintToolHint(painter, view, text);
 }
 

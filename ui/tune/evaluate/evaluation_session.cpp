@@ -120,7 +120,7 @@ void EvaluationSession::refreshLater() {
 void EvaluationSession::refresh() {
     if (!wanted_ || !stale_) return;
     if (!session_.currentRun() || session_.project().empty() || session_.running()) {
-        obstacle_ = session_.running() ? tr("The run is still running. It is evaluated when it has ended.")
+        obstacle_ = session_.running() ? tr("Wait until the run has ended; it is evaluated then.")
                                        : tr("Choose a run, or run the video first. Then it is compared with the labels "
                                             "of the project or with a file of ground truth.");
         emit changed();

@@ -88,7 +88,7 @@ void StacksPanel::refresh() {
                "other; noise and background fade, and the detector searches the stacked image.");
         action = tr("Run with stacking");
     } else if (session_.following()) {
-        why = tr("The run is still running. Go to a frame that it has processed to see its stacks.");
+        why = tr("To see stacks during the run, go to a frame that it has processed.");
     } else if (!inspection_.problem().isEmpty()) {
         why = inspection_.problem();
     } else if (!session_.viewFrame().result) {

@@ -119,8 +119,7 @@ std::pair<QString, QString> StagesPanel::whyEmpty() const {
         return {tr("Shows each step of a detection, from the search area to the boxes. Run the video "
                    "first, or choose a run."),
                 {}};
-    if (session_.following())
-        return {tr("The run is still running. Go to a frame that it has processed to see its steps."), {}};
+    if (session_.following()) return {tr("To see the steps during the run, go to a frame that it has processed."), {}};
     if (!inspection_.problem().isEmpty()) return {inspection_.problem(), {}};
     if (!result) return {tr("The run has not processed this frame."), {}};
     if (result->clusters.empty()) return {tr("Nothing moves in this frame: there are no motion clusters."), {}};

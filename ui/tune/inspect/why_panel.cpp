@@ -90,12 +90,11 @@ void WhyPanel::refresh() {
         return empty(
             tr("Answers why something was found at a place of a frame, or was not. Run the "
                "video first, or choose a run."));
-    if (session_.following())
-        return empty(tr("The run is still running. Go to a frame that it has processed, and ask there."));
+    if (session_.following()) return empty(tr("To ask during the run, go to a frame that it has processed."));
     if (!why_.asked())
         return empty(
-            tr("Point at a place of the picture, hit or missed, and press Shift+W, or choose “Why?” from its "
-               "context menu. Every comparison that was made there is listed, and the one that decided."));
+            tr("Point at a place in the picture, hit or missed, and press Shift+W, or choose “Why?” from its context "
+               "menu. Every comparison that was made there is listed, and the one that decided."));
     if (!why_.problem().isEmpty()) return empty(why_.problem());
     if (!view)
         return empty(why_.waiting() ? tr("Looking at the frames before this one…")

@@ -143,8 +143,9 @@ OpenedRuns SweepSession::openResumed(const Job& job, SweepPlan& plan, const std:
     std::vector<RunToSweep> runs;
     for (const SweepClip& clip : plan.clips) {
         if (clip.run == 0) {
-            throw Error(ErrorKind::parameter,
-                        "This sweep was started by eyrie-cli on files; resume it there (eyrie-cli sweep … --resume).");
+            throw Error(
+                ErrorKind::parameter,
+                "This sweep was started by eyrie-cli on files; resume it there (the same command with --resume).");
         }
         runs.push_back({clip.run, {.file = clip.ground_truth}, plan.evaluationOf(clip)});
     }

@@ -37,8 +37,7 @@ StageTimesChart::StageTimesChart(QWidget* parent)
       readout_(new QLabel(this)),
       plot_(new QCustomPlot(this)) {
     empty_->setTexts(
-        tr("No times yet. While a run works, or when a run is chosen, this shows where the time of each "
-           "frame goes."));
+        tr("No times yet. During a run, or when a run is chosen, this shows where the time of each frame goes."));
     readout_->setContentsMargins(4, 2, 4, 2);
     readout_->setTextInteractionFlags(Qt::TextSelectableByMouse);
     readout_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);

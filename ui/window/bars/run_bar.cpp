@@ -136,9 +136,8 @@ void RunBar::refresh() {
         frame_rate_->setValue(video->frame_rate_hz);
         frame_rate_->setSuffix(video->frame_rate_assumed ? tr(" fps?") : tr(" fps"));
         frame_rate_->setToolTip(video->frame_rate_assumed
-                                    ? tr("Assumed: nobody said how many frames per second these "
-                                         "pictures are. Type it and press Return; the project "
-                                         "remembers it.")
+                                    ? tr("Assumed: it is not known how many frames per second these pictures have. "
+                                         "Type the rate and press Return; the project remembers it.")
                                     : tr("Frames per second of the video. Folders of images do not "
                                          "state it: give it here. The project remembers it."));
         const int last = std::max(0, video->frame_count - 1);
@@ -232,8 +231,8 @@ void RunBar::tellAssumedRate() {
         return;
     }
     messages_.showTopic(kRateTopic, MessageKind::warning,
-                        tr("A folder of pictures does not tell its frame rate: %1 per second are assumed until you say "
-                           "it. Times, speeds and what a run finds depend on it.")
+                        tr("A folder of pictures does not state its frame rate: %1 frames per second are assumed until "
+                           "you enter it. Times, speeds and what a run finds depend on it.")
                             .arg(locale().toString(video->frame_rate_hz, 'g', 4)),
                         tr("Enter the rate"), [this] { askForFrameRate(); });
 }

@@ -54,7 +54,7 @@ EventReport::EventReport(const EventReportParts& parts)
 void EventReport::ask(bool all) {
     if (!parts_.session.runData()) {
         parts_.messages.showTopic(kReportTopic, MessageKind::info,
-                                  tr("Run the video first; a report tells what a run found."));
+                                  tr("Run the video first; a report shows what a run found."));
         return;
     }
     const RunRecord& run = parts_.session.runData()->record;

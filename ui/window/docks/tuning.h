@@ -34,7 +34,7 @@ struct TuningParts {
     QMainWindow& window;
 };
 
-/// The tools of who tunes the chain by looking: "Why?" and the live preview.
+/// The tools for tuning the chain by looking: "Why?" and the live preview.
 class Tuning : public QObject {
     Q_OBJECT
 

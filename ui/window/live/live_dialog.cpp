@@ -49,7 +49,7 @@ void LiveDialog::buildFields() {
     address_->setObjectName(QStringLiteral("live_address"));
     address_->setPlaceholderText(QStringLiteral("rtsp://camera/stream"));
     address_fault_ = quietLabel({}, fields_);
-    auto* kinds = quietLabel(tr("rtsp://name:password@camera/stream   a camera that is asked\n"
+    auto* kinds = quietLabel(tr("rtsp://name:password@camera/stream   a camera that sends on request\n"
                                 "udp://@239.0.0.1:5000   a transport stream sent to a group\n"
                                 "udp://0.0.0.0:5000   one that is sent to this machine\n"
                                 "Also rtp, srt, tcp, http, https and rtmp. Name and password are not kept."),
@@ -61,10 +61,10 @@ void LiveDialog::buildFields() {
     gsd_ = new QLineEdit(fields_);
     gsd_->setObjectName(QStringLiteral("live_gsd"));
     gsd_->setPlaceholderText(unknownGsdText());
-    gsd_->setToolTip(tr(
-        "Ground sampling distance: metres on the ground per pixel. Without it that of the source's metadata is taken, "
-        "where it has some; else the first pictures are looked at for a scale to work with. That takes some seconds, "
-        "and much of what comes meanwhile is recorded only."));
+    gsd_->setToolTip(
+        tr("Ground sampling distance: metres on the ground per pixel. Without it, the metadata of the source are used "
+           "if they give one; otherwise a scale to work with is estimated from the first pictures. That takes some "
+           "seconds, and much of what comes in meanwhile is only recorded."));
     give_up_ = new QSpinBox(fields_);
     give_up_->setObjectName(QStringLiteral("live_give_up"));
     give_up_->setRange(5, 24 * 3600);
@@ -175,7 +175,7 @@ void LiveDialog::watch() {
     const QString project = withEnding(project_->text().trimmed(), kProjectEnding);
     const QString recording = recording_->text().trimmed();
     if (QFileInfo(project).completeBaseName().isEmpty()) {
-        showFault(tr("Say where the project goes."));
+        showFault(tr("Choose where the project goes."));
         project_->setFocus();
         return;
     }

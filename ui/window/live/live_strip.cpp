@@ -80,10 +80,9 @@ void LiveStrip::refresh() {
     if (!status || session_.liveSource() == nullptr) return;
     const LiveFacts& facts = status->load.facts;
     stop_->setEnabled(!session_.stopping());
-    state_->setText(
-        session_.stopping()
-            ? tr("stopping: what came before is still worked on, %1 behind").arg(durationText(status->behind_s))
-            : liveStateText(*status, session_.liveSource()->stream.give_up_s));
+    state_->setText(session_.stopping() ? tr("stopping: what came in before is still being processed, %1 behind")
+                                              .arg(durationText(status->behind_s))
+                                        : liveStateText(*status, session_.liveSource()->stream.give_up_s));
     // What matters most keeps its room, unless that were all there is.
     state_->setMinimumWidth(std::min(state_->sizeHint().width(), width() / 2));
     load_->setText(liveLoadText(*status));

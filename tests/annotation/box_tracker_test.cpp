@@ -13,7 +13,7 @@
 #include "io/video/frame_source.h"
 #include "support/shared_data.h"
 
-namespace eyrie::box_following_test {
+namespace eyrie::box_tracker_test {
 namespace {
 
 cv::Mat noise(cv::Size size, int seed, double blur) {
@@ -78,7 +78,7 @@ double worstOverlap(const FollowResult& result) {
     return worst;
 }
 
-TEST(BoxFollowing, FollowsForwardAndBackwardWithAndWithoutKnowingTheCamera) {
+TEST(BoxTracker, FollowsForwardAndBackwardWithAndWithoutKnowingTheCamera) {
     const DrawnScene scene;
     const auto gray = [&](FrameIndex frame) { return scene.picture(frame); };
     const CameraMotion known(test::stepsOf(DrawnScene::view, 100));
@@ -94,7 +94,7 @@ TEST(BoxFollowing, FollowsForwardAndBackwardWithAndWithoutKnowingTheCamera) {
     }
 }
 
-TEST(BoxFollowing, StopsUnderABridgeAndSaysWhy) {
+TEST(BoxTracker, StopsUnderABridgeAndSaysWhy) {
     const DrawnScene scene(true);
     const auto gray = [&](FrameIndex frame) { return scene.picture(frame); };
     const FollowResult result =
@@ -111,7 +111,7 @@ TEST(BoxFollowing, StopsUnderABridgeAndSaysWhy) {
     }
 }
 
-TEST(BoxFollowing, EndsAtTheBorderAtMissingPicturesAndOnDemand) {
+TEST(BoxTracker, EndsAtTheBorderAtMissingPicturesAndOnDemand) {
     const DrawnScene scene;
     const auto gray = [&](FrameIndex frame) { return scene.picture(frame); };
     const auto out = followBox(DrawnScene::truth(60), 60, 101, gray, CameraMotion());
@@ -170,7 +170,7 @@ class WaitingScene {
     cv::Mat lorry_ = noise({80, 30}, 7, 1.5);
 };
 
-TEST(BoxFollowing, WhatWaitsIsFollowedWhileOthersPassInFrontOfIt) {
+TEST(BoxTracker, WhatWaitsIsFollowedWhileOthersPassInFrontOfIt) {
     for (const bool high : {false, true}) {
         const FollowResult result = WaitingScene(high, false).followed();
         EXPECT_EQ(result.end, FollowEnd::end_of_range) << result.reason;
@@ -180,7 +180,7 @@ TEST(BoxFollowing, WhatWaitsIsFollowedWhileOthersPassInFrontOfIt) {
     }
 }
 
-TEST(BoxFollowing, WhatIsGoneWhenItCanBeSeenAgainEndsWhereItWasHidden) {
+TEST(BoxTracker, WhatIsGoneWhenItCanBeSeenAgainEndsWhereItWasHidden) {
     const FollowResult result = WaitingScene(true, true).followed();
     EXPECT_NE(result.end, FollowEnd::end_of_range);
     EXPECT_GT(result.end_frame, 14);
@@ -191,7 +191,7 @@ TEST(BoxFollowing, WhatIsGoneWhenItCanBeSeenAgainEndsWhereItWasHidden) {
 
 /// Real vehicles of 22 × 9 px, followed from their first whole frame. Printed, because the figures are wanted in
 /// reports.
-TEST(BoxFollowing, FollowsRealVehicles) {
+TEST(BoxTracker, FollowsRealVehicles) {
     EYRIE_NEED_SHARED_DATA("collage_day");
     const auto folder = test::sharedData("collage_day");
     const auto source = openSource(folder / "frames");
@@ -239,4 +239,4 @@ TEST(BoxFollowing, FollowsRealVehicles) {
 }
 
 }  // namespace
-}  // namespace eyrie::box_following_test
+}  // namespace eyrie::box_tracker_test

@@ -5,7 +5,7 @@
 #include "tracking/finishing/track_finishing.h"
 #include "tracking/frame_summaries.h"
 
-namespace eyrie::track_rest_test {
+namespace eyrie::standstill_extension_test {
 namespace {
 
 const SceneScale kScale{0.3, 25, true};
@@ -47,7 +47,7 @@ struct Starter {
     }
 };
 
-TEST(FromRest, ATrackGoesBackToWhereTheVehicleStood) {
+TEST(StandstillExtension, ATrackGoesBackToWhereTheVehicleStood) {
     const Starter starter;
     const auto states = starter.finished();
     EXPECT_EQ(states.begin()->first, 0) << "four seconds are 100 frames";
@@ -57,7 +57,7 @@ TEST(FromRest, ATrackGoesBackToWhereTheVehicleStood) {
     EXPECT_NEAR(states.at(30).velocity.x, 0, 1e-9);
 }
 
-TEST(FromRest, StandsForTheTimeAllowedOnly) {
+TEST(StandstillExtension, StandsForTheTimeAllowedOnly) {
     FinishingOptions options;
     options.from_rest_s = 2;
     EXPECT_EQ(Starter{}.finished(options).begin()->first, kFound - 50);
@@ -65,7 +65,7 @@ TEST(FromRest, StandsForTheTimeAllowedOnly) {
     EXPECT_GE(Starter{}.finished(options).begin()->first, kFound - 5) << "extend_back alone";
 }
 
-TEST(FromRest, NotWhatDrivesEvenlyOrBrakesOrIsFastAlready) {
+TEST(StandstillExtension, NotWhatDrivesEvenlyOrBrakesOrIsFastAlready) {
     Starter even;
     even.acceleration = 0;
     even.initial_speed = 0.3;
@@ -79,7 +79,7 @@ TEST(FromRest, NotWhatDrivesEvenlyOrBrakesOrIsFastAlready) {
     EXPECT_GE(fast.finished().begin()->first, kFound - 5);
 }
 
-TEST(FromRest, EndsWhereAnotherTrackStood) {
+TEST(StandstillExtension, EndsWhereAnotherTrackStood) {
     const Starter starter;
     std::vector<TimedState> other;
     for (int frame = 0; frame < 40; ++frame) {
@@ -96,4 +96,4 @@ TEST(FromRest, EndsWhereAnotherTrackStood) {
 }
 
 }  // namespace
-}  // namespace eyrie::track_rest_test
+}  // namespace eyrie::standstill_extension_test

@@ -7,7 +7,7 @@
 #include "annotation/keyframes/interpolation.h"
 #include "annotation/scenes.h"
 
-namespace eyrie::picture_fit_test {
+namespace eyrie::trajectory_refinement_test {
 namespace {
 
 cv::Mat noise(cv::Size size, int seed, double blur) {
@@ -66,7 +66,7 @@ double worstOverlap(const LabelledObject& object) {
     return worst;
 }
 
-TEST(PictureFit, LaysATrackOnItsVehicle) {
+TEST(TrajectoryRefinement, LaysATrackOnItsVehicle) {
     const Street street;
     const LabelledObject before = driftingTrack();
     EXPECT_LT(worstOverlap(before), 0.6);
@@ -80,7 +80,7 @@ TEST(PictureFit, LaysATrackOnItsVehicle) {
     EXPECT_EQ(keyframeAt(fit.object, 0)->box.centre, Street::truth(0).centre);
 }
 
-TEST(PictureFit, KeepsFlagsWhereTheyAre) {
+TEST(TrajectoryRefinement, KeepsFlagsWhereTheyAre) {
     const Street street;
     LabelledObject object = driftingTrack();
     object.keyframes[1].occlusion = Occlusion::partly;
@@ -90,7 +90,7 @@ TEST(PictureFit, KeepsFlagsWhereTheyAre) {
         EXPECT_EQ(boxAt(fit.object, frame, standing).occlusion, Occlusion::partly) << frame;
 }
 
-TEST(PictureFit, NeedsAHandAndSomethingComputed) {
+TEST(TrajectoryRefinement, NeedsAHandAndSomethingComputed) {
     const Street street;
     LabelledObject by_hand = driftingTrack();
     for (Keyframe& keyframe : by_hand.keyframes) keyframe.computed = false;
@@ -104,7 +104,7 @@ TEST(PictureFit, NeedsAHandAndSomethingComputed) {
     }
 }
 
-TEST(PictureFit, WithoutPicturesNothingMoves) {
+TEST(TrajectoryRefinement, WithoutPicturesNothingMoves) {
     const LabelledObject object = driftingTrack();
     const PictureFit fit = fittedToPictures(object, standing, [](FrameIndex) { return cv::Mat(); });
     for (const FrameIndex frame : {0, 20, 50})
@@ -112,7 +112,7 @@ TEST(PictureFit, WithoutPicturesNothingMoves) {
                   1.8);
 }
 
-TEST(PictureFit, StopsWhenAsked) {
+TEST(TrajectoryRefinement, StopsWhenAsked) {
     const Street street;
     std::stop_source stop;
     stop.request_stop();
@@ -184,4 +184,4 @@ TEST(CarriedCorrection, BoxesAtTheBorderAreTold) {
 }
 
 }  // namespace
-}  // namespace eyrie::picture_fit_test
+}  // namespace eyrie::trajectory_refinement_test

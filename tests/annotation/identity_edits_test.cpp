@@ -9,7 +9,7 @@
 #include "annotation/scenes.h"
 #include "core/error.h"
 
-namespace eyrie::identity_verbs_test {
+namespace eyrie::identity_edits_test {
 namespace {
 
 using test::keyframe;
@@ -63,7 +63,7 @@ const LabelledObject& objectOf(const IdentityChange& change, ObjectId id) {
     throw std::runtime_error("no object " + std::to_string(id));
 }
 
-TEST(IdentityVerbs, SplitShowsTheSameBoxesAsTwoObjects) {
+TEST(IdentityEdits, SplitShowsTheSameBoxesAsTwoObjects) {
     const auto car = winding(1, 0, 160, 50);
     for (const int frame : {1, 15, 16, 77, 159, 160}) {
         const auto change = splitAt(car, frame, 9, flying);
@@ -79,7 +79,7 @@ TEST(IdentityVerbs, SplitShowsTheSameBoxesAsTwoObjects) {
     expectRefused("does not exist in frame 161", [&] { splitAt(car, 161, 9, flying); });
 }
 
-TEST(IdentityVerbs, SplittingAndJoiningGiveTheSameBoxesAgain) {
+TEST(IdentityEdits, SplittingAndJoiningGiveTheSameBoxesAgain) {
     const auto car = winding(1, 0, 160, 50);
     const auto halves = splitAt(car, 77, 9, flying);
     const auto whole = joinInTime(objectOf(halves, 9), objectOf(halves, 1), flying);
@@ -91,7 +91,7 @@ TEST(IdentityVerbs, SplittingAndJoiningGiveTheSameBoxesAgain) {
     }
 }
 
-TEST(IdentityVerbs, JoiningOverAGapInterpolatesOrIsOutside) {
+TEST(IdentityEdits, JoiningOverAGapInterpolatesOrIsOutside) {
     const auto first = winding(1, 0, 60, 50);
     auto second = winding(2, 90, 150, 50);
     const auto through = joinInTime(first, second, flying).after[0];
@@ -109,7 +109,7 @@ TEST(IdentityVerbs, JoiningOverAGapInterpolatesOrIsOutside) {
     expectRefused("itself", [&] { joinInTime(first, first, flying); });
 }
 
-TEST(IdentityVerbs, WhatStoodBeforeAGapStandsThereStill) {
+TEST(IdentityEdits, WhatStoodBeforeAGapStandsThereStill) {
     const OrientedBox parked{{200, 90}, 20, 9, 0.4};
     auto standing = test::object(1, {keyframe(0, seen(parked, test::flyingView(0)), true)}, 60);
     const auto later = winding(2, 90, 150, 90);
@@ -117,7 +117,7 @@ TEST(IdentityVerbs, WhatStoodBeforeAGapStandsThereStill) {
     expectShows(whole, standing, 0, 60);
 }
 
-TEST(IdentityVerbs, SwapFromHereChangesHandsAndTwiceIsNothing) {
+TEST(IdentityEdits, SwapFromHereChangesHandsAndTwiceIsNothing) {
     const auto a = winding(1, 0, 160, 50);
     const auto b = winding(2, 20, 140, 80);
     const auto change = swapFrom(a, b, 77, flying);
@@ -136,7 +136,7 @@ TEST(IdentityVerbs, SwapFromHereChangesHandsAndTwiceIsNothing) {
     }
 }
 
-TEST(IdentityVerbs, SwapWithOneThatEndedHandsOverTheRest) {
+TEST(IdentityEdits, SwapWithOneThatEndedHandsOverTheRest) {
     const auto lost = winding(1, 0, 60, 50);
     const auto found = winding(2, 75, 150, 50);
     const auto change = swapFrom(lost, found, 70, flying);
@@ -146,7 +146,7 @@ TEST(IdentityVerbs, SwapWithOneThatEndedHandsOverTheRest) {
     expectRefused("neither", [&] { swapFrom(lost, found, 151, flying); });
 }
 
-TEST(IdentityVerbs, RenumberFromHere) {
+TEST(IdentityEdits, RenumberFromHere) {
     const auto car = winding(1, 0, 160, 50);
     const auto fresh = renumberFrom(car, 80, 7, nullptr, flying);
     expectShows(objectOf(fresh, 7), car, 80, 160);
@@ -163,7 +163,7 @@ TEST(IdentityVerbs, RenumberFromHere) {
     expectRefused("swap the two", [&] { renumberFrom(car, 80, 7, &alive, flying); });
 }
 
-TEST(IdentityVerbs, FuseTakesWhatOnlyTheOtherHas) {
+TEST(IdentityEdits, FuseTakesWhatOnlyTheOtherHas) {
     const auto kept = winding(1, 45, 105, 50);
     const auto other = winding(2, 0, 150, 54);
     const auto change = fuseInParallel(kept, other, flying);
@@ -178,7 +178,7 @@ TEST(IdentityVerbs, FuseTakesWhatOnlyTheOtherHas) {
     expectRefused("join them", [&] { fuseInParallel(winding(1, 0, 30, 5), winding(2, 45, 60, 5), flying); });
 }
 
-TEST(IdentityVerbs, DeleteBeforeAndAfter) {
+TEST(IdentityEdits, DeleteBeforeAndAfter) {
     const auto car = winding(1, 0, 160, 50);
     expectShows(objectOf(deleteBefore(car, 50, flying), 1), car, 50, 160);
     expectShows(objectOf(deleteAfter(car, 50, flying), 1), car, 0, 50);
@@ -187,7 +187,7 @@ TEST(IdentityVerbs, DeleteBeforeAndAfter) {
     EXPECT_EQ(deleteAfter(car, -1, flying).removed, std::vector<ObjectId>{1});
 }
 
-TEST(IdentityVerbs, FlagsOfARangeEndWithTheRange) {
+TEST(IdentityEdits, FlagsOfARangeEndWithTheRange) {
     auto car = winding(1, 0, 160, 50);
     car.keyframes[6].occlusion = Occlusion::partly;  // frame 90
     const auto flagged = withFlags(car, 40, 100, {Occlusion::fully, std::nullopt, true}, flying);
@@ -202,7 +202,7 @@ TEST(IdentityVerbs, FlagsOfARangeEndWithTheRange) {
     EXPECT_EQ(withClass({car}, "bus", 5)[0].object_class, "bus");
 }
 
-TEST(IdentityVerbs, ReviewMarksGoWithTheirFramesAndAllIsOneStepBack) {
+TEST(IdentityEdits, ReviewMarksGoWithTheirFramesAndAllIsOneStepBack) {
     AnnotationSet set = setOf({winding(1, 0, 160, 50), winding(2, 0, 160, 90)});
     set.reviews = {{1, 10, 120, ReviewState::checked, "Ada", "t1"},
                    {2, 0, 160, ReviewState::questionable, "Bob", "t2"}};
@@ -252,4 +252,4 @@ TEST(JoinSuggestions, AreRankedByDistanceOverTheGround) {
 }
 
 }  // namespace
-}  // namespace eyrie::identity_verbs_test
+}  // namespace eyrie::identity_edits_test

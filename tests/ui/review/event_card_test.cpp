@@ -1,0 +1,37 @@
+#include "review/card/event_card.h"
+
+#include <QLabel>
+#include <QLineEdit>
+#include <QTest>
+
+#include "ui/support/ui_test.h"
+
+namespace eyrie::ui::event_card_test {
+
+/// The card by itself: what stands on it.
+class EventCardTest : public QObject {
+    Q_OBJECT
+
+ private slots:
+    void whoJudgedStandsOnTheCardOfAnEventAlone() {
+        EventCard card;
+        CardSubject subject;
+        subject.title = QStringLiteral("Stops");
+        subject.event = 3;
+        subject.track = 7;
+        subject.judged = QStringLiteral("Relevant: Anna, 4 Mar 2026 14:03");
+        card.show(subject);
+        QVERIFY(!card.judged().isHidden());
+        QCOMPARE(card.judged().text(), subject.judged);
+
+        subject.judged.clear();
+        card.show(subject);
+        QVERIFY(card.judged().isHidden());
+        QVERIFY(!card.note().isHidden());
+    }
+};
+
+}  // namespace eyrie::ui::event_card_test
+
+EYRIE_UI_TEST(QApplication, event_card_test, EventCardTest)
+#include "event_card_test.moc"
