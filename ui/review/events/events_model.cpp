@@ -1,5 +1,6 @@
 #include "review/events/events_model.h"
 
+#include <QStringList>
 #include <utility>
 
 #include "review/events/event_text.h"
@@ -92,8 +93,12 @@ QVariant EventsModel::data(const QModelIndex& index, int role) const {
 }
 
 QString EventsModel::tipOf(const EventEntry& entry) const {
+    QStringList lines{eventTipText(*found_, entry.position)};
+    const QString moment = clock_.text(found_->framesAt(entry.position).first);
+    if (!moment.isEmpty()) lines << tr("%1, %2 in the video").arg(moment, eventClockText(*found_, entry.position));
     const QString said = judgedText(entry.judgement, entry.person, entry.judged_utc);
-    return eventTipText(*found_, entry.position) + (said.isEmpty() ? QString() : QLatin1Char('\n') + said);
+    if (!said.isEmpty()) lines << said;
+    return lines.join(QLatin1Char('\n'));
 }
 
 QString EventsModel::textOf(const EventEntry& entry, int column) const {
@@ -120,13 +125,6 @@ QString EventsModel::textOf(const EventEntry& entry, int column) const {
 QString EventsModel::timeOf(const EventEntry& entry) const {
     const QString time = clock_.time(found_->framesAt(entry.position).first);
     return time.isEmpty() ? eventClockText(*found_, entry.position) : time;
-}
-
-QString EventsModel::tipOf(const EventEntry& entry) const {
-    const QString tip = eventTipText(*found_, entry.position);
-    const QString moment = clock_.text(found_->framesAt(entry.position).first);
-    if (moment.isEmpty()) return tip;
-    return tip + QLatin1Char('\n') + tr("%1, %2 in the video").arg(moment, eventClockText(*found_, entry.position));
 }
 
 QVariant EventsModel::sortValueOf(const EventEntry& entry, int column) const {
