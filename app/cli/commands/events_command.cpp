@@ -30,14 +30,15 @@ JudgedEvents wantedOf(const ReviewedRun& reviewed, const EventChoice& choice) {
     wanted.any = !reviewed.review.verdicts.empty();
     for (std::size_t i = 0; i < reviewed.events.size(); ++i) {
         const Verdict* verdict = reviewed.verdictOn(i);
-        if (!choice.wants(reviewed.events[i].kind, verdict)) continue;
+        const int number = static_cast<int>(i) + 1;
+        if (!choice.wants(reviewed.events[i].kind, verdict, number)) continue;
         wanted.events.push_back(reviewed.events[i]);
-        wanted.numbers.push_back(static_cast<int>(i) + 1);
+        wanted.numbers.push_back(number);
         wanted.verdicts.push_back(verdict);
     }
     for (const LeftVerdict& left : reviewed.carried.left) {
         const Verdict& verdict = reviewed.review.verdicts.at(left.verdict);
-        if (choice.wants(verdict.subject.kind, &verdict)) wanted.left.push_back(left);
+        if (choice.wants(verdict.subject.kind, &verdict, 0)) wanted.left.push_back(left);
     }
     return wanted;
 }

@@ -26,6 +26,7 @@ struct ReportArguments {
     std::string project;
     bool of_events = false;
     EventArguments events;
+    std::vector<int> numbers;
     std::string start;
     GroundTruthArguments ground_truth;
     EvaluationArguments evaluation;
@@ -58,13 +59,26 @@ std::string digestOf(const std::string& video, const std::stop_token& stop) {
     }
 }
 
+void checkNumbers(const std::vector<int>& numbers, std::size_t events) {
+    for (const int number : numbers) {
+        if (number >= 1 && static_cast<std::size_t>(number) <= events) continue;
+        throw Error(ErrorKind::parameter,
+                    "--event " + std::to_string(number) + ": the run has " +
+                        (events == 0 ? "no events" : "the events 1 to " + std::to_string(events)) +
+                        "; eyrie-cli events lists them with their numbers");
+    }
+}
+
 /// Answers the exit code.
 int makeEventReport(const ReportArguments& arguments) {
     EventArguments events = arguments.events;
     events.project = arguments.project;
-    if (events.verdicts.empty()) events.verdicts = {nameOf(Judgement::relevant), nameOf(Judgement::unsure)};
+    // Who names events has judged what goes into the report.
+    if (events.verdicts.empty() && arguments.numbers.empty())
+        events.verdicts = {nameOf(Judgement::relevant), nameOf(Judgement::unsure)};
     if (events.verdicts == std::vector<std::string>{"all"}) events.verdicts.clear();
-    const EventChoice choice = events.choice();
+    EventChoice choice = events.choice();
+    choice.numbers = arguments.numbers;
     const auto start = startOf(arguments.start);
     const InterruptGuard interrupt;
     ProjectFile project = openForReading(arguments.project);
@@ -73,6 +87,7 @@ int makeEventReport(const ReportArguments& arguments) {
     const std::unique_ptr<FrameSource> pixels = pixelsOf(run, "pictures", interrupt.token());
     ReviewReportInput input = gatherReviewReport(project, run, choice, pixels.get(), start, interrupt.token());
     events.tellZones(input.reviewed);
+    checkNumbers(arguments.numbers, input.reviewed.events.size());
     if (pixels && pixels->info().container != "scene")
         input.video_digest = digestOf(run.sequence.path, interrupt.token());
     input.made_utc = nowUtc();
@@ -140,11 +155,16 @@ void addReportCommand(CLI::App& app, int& exit_code) {
     command->add_flag("--events", arguments->of_events,
                       "Report what happened, with pictures and verdicts; needs no ground truth");
     arguments->events.addChoiceTo(*command, "relevant,unsure; all for every event");
+    command
+        ->add_option("--event", arguments->numbers,
+                     "Only these events, by the numbers that eyrie-cli events lists, whatever their verdict: 3,7,12")
+        ->delimiter(',');
     arguments->events.addSearchTo(*command);
     command->add_option("--start", arguments->start, kStartHelp);
     arguments->outputs.addTo(*command);
     command->callback([arguments, command, &exit_code] {
-        const std::vector<const char*> of_events{"--kind", "--verdict", "--zone", "--set", "--uncorrected", "--start"};
+        const std::vector<const char*> of_events{"--kind", "--verdict",     "--event", "--zone",
+                                                 "--set",  "--uncorrected", "--start"};
         const std::vector<const char*> of_evaluations{"--ground-truth", "--against", "--detections", "--overlap",
                                                       "--chips"};
         for (const char* option : arguments->of_events ? of_evaluations : of_events) {

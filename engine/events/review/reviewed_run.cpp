@@ -28,8 +28,8 @@ const Verdict* ReviewedRun::verdictOnStretch(std::size_t stretch) const {
     return verdictWith(review, carried.of_stretch.at(stretch));
 }
 
-bool EventChoice::wants(const std::optional<EventKind>& kind, const Verdict* verdict) const {
-    return (!kind || isNoneOrAmong(kinds, *kind)) &&
+bool EventChoice::wants(const std::optional<EventKind>& kind, const Verdict* verdict, int number) const {
+    return (!kind || isNoneOrAmong(kinds, *kind)) && isNoneOrAmong(numbers, number) &&
            isNoneOrAmong(judgements, verdict == nullptr ? Judgement::open : verdict->judgement);
 }
 

@@ -32,11 +32,12 @@ struct EventChoice {
     std::optional<std::vector<Zone>> zones;  ///< nothing: those that the project keeps for the video
     std::vector<EventKind> kinds;            ///< none: all
     std::vector<Judgement> judgements;       ///< none: all
+    std::vector<int> numbers;                ///< of events, from 1, as all of the run are counted; none: all
     bool uncorrected = false;                ///< of the run's own tracks
 
     /// Whether an event of this kind (nothing: a stretch that could not be searched) with this verdict, null for none,
-    /// is wanted.
-    bool wants(const std::optional<EventKind>& kind, const Verdict* verdict) const;
+    /// and this number, 0 for none, is wanted.
+    bool wants(const std::optional<EventKind>& kind, const Verdict* verdict, int number) const;
 };
 
 /// Reads a run and searches it for events. Zones must be without fault. Throws Error(project).

@@ -107,7 +107,8 @@ std::string factsTable(const ReviewScene& scene, const Event& event, const Verdi
 std::vector<std::size_t> chosenEvents(const ReviewReportInput& input) {
     std::vector<std::size_t> chosen;
     for (std::size_t i = 0; i < input.reviewed.events.size(); ++i)
-        if (input.choice.wants(input.reviewed.events[i].kind, input.reviewed.verdictOn(i))) chosen.push_back(i);
+        if (input.choice.wants(input.reviewed.events[i].kind, input.reviewed.verdictOn(i), static_cast<int>(i) + 1))
+            chosen.push_back(i);
     return chosen;
 }
 

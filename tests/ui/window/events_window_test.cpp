@@ -72,19 +72,32 @@ class EventsWindowTest : public QObject {
             };
             return QTest::qWaitFor(said, kPatience_ms);
         };
-        window->eventReport().write(at("all.html").toStdString(), true);
+        window->eventReport().write(at("all.html").toStdString(), ReportedEvents::all);
         QVERIFY(told(tr("Wrote the report %1.").arg(at("all.html"))));
         QFile html(at("all.html"));
         QVERIFY(html.open(QIODevice::ReadOnly));
         const QByteArray page = html.readAll();
         QVERIFY(page.contains("over speed") && page.contains("data:image/jpeg;base64"));
         QVERIFY2(page.contains("events.over_time"), "limits that are set in the dock");
-        window->eventReport().write(at("judged.pdf").toStdString(), false);
+        window->eventReport().write(at("judged.pdf").toStdString(), ReportedEvents::judged);
         QVERIFY(told(tr("Wrote the report %1.").arg(at("judged.pdf"))));
         QFile pdf(at("judged.pdf"));
         QVERIFY(pdf.open(QIODevice::ReadOnly));
         QVERIFY(pdf.read(5) == "%PDF-");
-        window->eventReport().write(at("stopped.html").toStdString(), true);
+        EventsPanel& panel = window->events().panel();
+        const std::vector<int> numbers = panel.listedNumbers();
+        QVERIFY(numbers.size() >= 2);
+        panel.kinds().showAll(false);
+        panel.kinds().setShown(static_cast<int>(EventKind::over_speed), true);
+        QVERIFY(!panel.listedNumbers().empty() && panel.listedNumbers().size() < numbers.size());
+        window->eventReport().write(at("listed.html").toStdString(), ReportedEvents::listed);
+        QVERIFY(told(tr("Wrote the report %1.").arg(at("listed.html"))));
+        QFile listed(at("listed.html"));
+        QVERIFY(listed.open(QIODevice::ReadOnly));
+        const QByteArray part = listed.readAll();
+        QCOMPARE(part.count("<h3>"), panel.listedNumbers().size());
+        QVERIFY(part.contains("over speed") && !part.contains(". appears"));
+        window->eventReport().write(at("stopped.html").toStdString(), ReportedEvents::all);
         const auto buttons = window->messages().findChildren<QPushButton*>();
         const auto cancel = std::find_if(buttons.begin(), buttons.end(),
                                          [](const QPushButton* button) { return button->text() == tr("Cancel"); });
@@ -92,7 +105,7 @@ class EventsWindowTest : public QObject {
         (*cancel)->click();
         QVERIFY(told(tr("The report was stopped")));
         QVERIFY(!QFile::exists(at("stopped.html")));
-        window->eventReport().write(at("no/where/r.html").toStdString(), true);
+        window->eventReport().write(at("no/where/r.html").toStdString(), ReportedEvents::all);
         QVERIFY(told(QStringLiteral("no/where")));
     }
 

@@ -96,9 +96,11 @@ void EventsPanel::buildButtons() {
     report->setToolTip(tr("Write events with pictures and verdicts as one HTML or PDF file"));
     report->setPopupMode(QToolButton::InstantPopup);
     auto* choices = new QMenu(report);
-    connect(choices->addAction(tr("Relevant and unsure…")), &QAction::triggered, this,
-            [this] { emit reportWanted(false); });
-    connect(choices->addAction(tr("All events…")), &QAction::triggered, this, [this] { emit reportWanted(true); });
+    const std::pair<QString, ReportedEvents> offered[] = {{tr("Relevant and unsure…"), ReportedEvents::judged},
+                                                          {tr("Those listed now…"), ReportedEvents::listed},
+                                                          {tr("All events…"), ReportedEvents::all}};
+    for (const auto& [text, which] : offered)
+        choices->addAction(text, this, [this, which = which] { emit reportWanted(which); });
     report->setMenu(choices);
     buttons->addWidget(report);
     limits_button_ = addSwitch(tr("Limits"), tr("What counts as an event"));
@@ -236,6 +238,15 @@ int EventsPanel::shownRowOf(int id) const {
 const EventEntry* EventsPanel::shownAt(int row) const {
     const auto* shown = static_cast<const TableSortProxy*>(table()->model());
     return events_->recordAt(shown->mapToSource(shown->index(row, 0)).row());
+}
+
+std::vector<int> EventsPanel::listedNumbers() const {
+    std::vector<int> numbers;
+    for (int row = 0; row < table()->model()->rowCount(); ++row) {
+        const EventEntry* entry = shownAt(row);
+        if (const auto number = events_->found()->numberAt(entry->position)) numbers.push_back(*number);
+    }
+    return numbers;
 }
 
 std::optional<int> EventsPanel::neighbour(int rows) const {

@@ -16,6 +16,9 @@ namespace eyrie::ui {
 class EventThresholds;
 class WindowActions;
 
+/// Which events a report is about.
+enum class ReportedEvents { judged, all, listed };  ///< judged: relevant or unsure
+
 /// What the list of events asks for.
 struct EventsPanelCommands {
     /// A person wants to see an event.
@@ -58,12 +61,13 @@ class EventsPanel : public TablePanel {
     std::optional<int> neighbour(int rows) const;
     /// The next row below `ids` and around that is not judged, in the order shown.
     std::optional<int> nextOpen(const QList<int>& ids) const;
+    /// Numbers of the events that are listed, as the run counts them.
+    std::vector<int> listedNumbers() const;
     /// Starts writing the note of an event.
     void editNote(int id);
 
  signals:
-    /// The user wants a report: of every event, or of those judged relevant or unsure.
-    void reportWanted(bool all);
+    void reportWanted(eyrie::ui::ReportedEvents which);
 
  protected:
     void rowSelected(int id) override { commands_.show(id); }

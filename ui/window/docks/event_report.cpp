@@ -51,7 +51,7 @@ EventReport::EventReport(const EventReportParts& parts)
     connect(&parts_.events.panel(), &EventsPanel::reportWanted, this, &EventReport::ask);
 }
 
-void EventReport::ask(bool all) {
+void EventReport::ask(ReportedEvents which) {
     if (!parts_.session.runData()) {
         parts_.messages.showTopic(kReportTopic, MessageKind::info,
                                   tr("Run the video first; a report shows what a run found."));
@@ -60,7 +60,7 @@ void EventReport::ask(bool all) {
     const RunRecord& run = parts_.session.runData()->record;
     const QString name = QFileInfo(QString::fromStdString(run.sequence.path)).completeBaseName();
     const QString path = askForReportFile(parts_.window, tr("%1 events").arg(name));
-    if (!path.isEmpty()) write(path.toStdString(), all);
+    if (!path.isEmpty()) write(path.toStdString(), which);
 }
 
 void EventReport::showWriting(double share) {
@@ -69,17 +69,22 @@ void EventReport::showWriting(double share) {
                               [this] { writer_.stop(); });
 }
 
-void EventReport::write(const std::filesystem::path& path, bool all) {
+void EventReport::write(const std::filesystem::path& path, ReportedEvents which) {
     if (!parts_.session.runData()) return;
     if (writer_.working()) {
         parts_.messages.showTopic(kReportTopic, MessageKind::info,
                                   tr("A report is being written. Wait until it is done."));
         return;
     }
+    if (which == ReportedEvents::listed && parts_.events.panel().listedNumbers().empty()) {
+        parts_.messages.showTopic(kReportTopic, MessageKind::info, tr("No event is listed."));
+        return;
+    }
     showWriting(0);
     EventChoice choice;
     choice.options = parts_.events.panel().thresholds().options();
-    if (!all) choice.judgements = {Judgement::relevant, Judgement::unsure};
+    if (which == ReportedEvents::judged) choice.judgements = {Judgement::relevant, Judgement::unsure};
+    if (which == ReportedEvents::listed) choice.numbers = parts_.events.panel().listedNumbers();
     const RunRecord run = parts_.session.runData()->record;
     const std::filesystem::path project = parts_.session.project();
     writer_.write({path,

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "events/event_options.h"
+#include "review/events/events_panel.h"
 #include "window/docks/report_writer.h"
 
 class QWidget;
@@ -30,11 +30,11 @@ class EventReport : public QObject {
  public:
     explicit EventReport(const EventReportParts& parts);
 
-    /// Writes without asking; PDF where the name ends so. `all`: every event, not only those judged relevant or unsure.
-    void write(const std::filesystem::path& path, bool all);
+    /// Writes without asking; PDF where the name ends so.
+    void write(const std::filesystem::path& path, ReportedEvents which);
 
  private:
-    void ask(bool all);
+    void ask(ReportedEvents which);
     void showWriting(double share);
 
     EventReportParts parts_;
