@@ -1,6 +1,7 @@
 #include "cli/run_clock.h"
 
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 #include "cli/arguments/input.h"
@@ -20,9 +21,14 @@ VideoClock clockOf(ProjectFile& project, const RunRecord& run, const std::string
     if (!given_us && !ask_video) return {};
     try {
         const auto pixels = openInput(run.sequence.path, 0, stop, run.sequence.frame_rate_hz);
-        return VideoClock::of(metadataOf(*pixels, stop), given_us);
-    } catch (const Error&) {
+        const FoundMetadata found = metadataOf(*pixels, stop);
+        // What was not read to its end knows less than the video does.
+        if (stop.stop_requested())
+            throw Error(ErrorKind::input, run.sequence.path + ": stopped while reading its metadata");
+        return VideoClock::of(found, given_us);
+    } catch (const Error& error) {
         if (stop.stop_requested()) throw;
+        std::fprintf(stderr, "eyrie-cli: the video tells no clock times: %s\n", error.what());
         return given_us ? VideoClock::startingAt(*given_us) : VideoClock();
     }
 }

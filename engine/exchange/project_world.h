@@ -14,8 +14,8 @@ namespace eyrie {
 
 /// When and where the boxes of a run were, by its registration and scale and by the metadata of the video. `pixels` is
 /// the video, or null where it cannot be read: then there are no metadata. `start_utc_us`: when the video began, if a
-/// person says so; else the metadata say it. `control`: what a person found on the earth; counts more than the
-/// metadata. Throws Error(project).
+/// person says so; else the metadata or the file say it. `control`: what a person found on the earth; counts more than
+/// the metadata. Throws Error(project).
 std::shared_ptr<const TrackWorld> trackWorldOf(const RunStore& store, const RunRecord& run, const FrameSource* pixels,
                                                std::optional<std::int64_t> start_utc_us = {},
                                                const std::stop_token& stop = {},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/error.h"
 #include "exchange/project_world.h"
 #include "formats/label_formats.h"
 #include "store/project/video_start.h"
@@ -21,6 +22,8 @@ void addWorld(LabelStream& labels, ProjectFile& project, const RunRecord& run, c
     const auto start = videoStartOf(project, run.sequence.id, start_utc_us);
     labels.about.world =
         trackWorldOf(RunStore(project), run, pixels, start, stop, readControlPoints(project, run.sequence.id));
+    if (stop.stop_requested())
+        throw Error(ErrorKind::input, run.sequence.path + ": stopped while reading its metadata");
 }
 
 }  // namespace eyrie

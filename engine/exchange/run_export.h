@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -22,7 +21,7 @@ bool tellsWorld(const std::string& format);
 
 /// Gives the tracks of a run times and places as the project and the video know them. `pixels` may be null, `labels` is
 /// of `run`. `start_utc_us`: when the video began, if a person says so now; else what the project keeps counts. Throws
-/// Error(project).
+/// Error(project), and Error(input) when it was stopped: what was not read to its end knows less.
 void addWorld(LabelStream& labels, ProjectFile& project, const RunRecord& run, const FrameSource* pixels,
               std::optional<std::int64_t> start_utc_us = {}, const std::stop_token& stop = {});
 

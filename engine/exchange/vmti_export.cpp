@@ -165,4 +165,20 @@ VmtiReport writeVmti(const LabelStream& labels, const FrameSource& video, const 
     return report;
 }
 
+std::vector<std::string> remarksOn(const VmtiReport& report, const std::string& no_place) {
+    std::vector<std::string> remarks;
+    const auto counted = [](int count, const char* one, const char* many) {
+        return std::to_string(count) + (count == 1 ? one : many);
+    };
+    remarks.push_back("times: " + report.clock_origin);
+    remarks.push_back("places: " + (report.place_origin.empty() ? no_place : report.place_origin));
+    if (report.without_place > 0 && !report.place_origin.empty())
+        remarks.push_back(counted(report.without_place, " target has", " targets have") + " no place");
+    if (report.without_stamp > 0)
+        remarks.push_back(counted(report.without_stamp, " frame is", " frames are") +
+                          " left out: no stamp in the video belongs to the picture");
+    remarks.push_back("written from what is publicly known about ST 0903.5; not checked with a validator");
+    return remarks;
+}
+
 }  // namespace eyrie

@@ -16,6 +16,10 @@ struct VmtiReport {
     std::string clock_origin, place_origin;  ///< empty: not known
 };
 
+/// What is worth knowing about it, one sentence each: where times and places come from, what was left out. `no_place`:
+/// why places are not known, where they are not.
+std::vector<std::string> remarksOn(const VmtiReport& report, const std::string& no_place);
+
 /// Writes a copy of the video as a transport stream with what is in `labels` as MISB ST 0903 VMTI: one local set a
 /// frame, in a track of its own. `labels.about.world` must tell times and be there; places are written where they are
 /// known. `video` must be a file. Throws Error(input) where times are not known or the video cannot be copied,

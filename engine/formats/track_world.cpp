@@ -63,7 +63,9 @@ const TrackWorld& neededTimes(const LabelFile& labels, const std::filesystem::pa
     if (!labels.world) refuse(path, format, "when the video was taken", "");
     if (!labels.world->utc_us)
         refuse(path, format, "when the video was taken",
-               labels.world->no_clock + "; say when it began with --start, e.g. --start 2026-11-21T08:00:00Z");
+               labels.world->no_clock +
+                   "; say when it began: --start 2026-11-21T08:00:00Z on the command line, File > Start time in the "
+                   "window");
     return *labels.world;
 }
 

@@ -84,15 +84,19 @@ VideoClock VideoClock::ofParts(const std::vector<VideoPart>& parts, std::shared_
             clock.metadata_ = metadata;
         clock.stretches_.push_back(*stretch);
     }
-    if (given_us) {
-        const bool steady = !clock.metadata_ && !clock.stretches_.empty();
-        if (!steady) return startingAt(*given_us);
-        const std::int64_t move = *given_us - *clock.stretches_.front().start_us;
-        for (Stretch& stretch : clock.stretches_) *stretch.start_us += move;
-    }
+    if (given_us) return begunAt(std::move(clock), *given_us);
     if (clock.stretches_.empty()) return {};
-    clock.source_ = given_us || clock.listed_parts_ > 0 ? Source::given : Source::metadata;
-    if (given_us) clock.listed_parts_ = 0;
+    clock.source_ = clock.listed_parts_ > 0 ? Source::given : Source::metadata;
+    return clock;
+}
+
+VideoClock VideoClock::begunAt(VideoClock clock, std::int64_t given_us) {
+    const bool steady = !clock.metadata_ && !clock.stretches_.empty();
+    if (!steady) return startingAt(given_us);
+    const std::int64_t move = given_us - *clock.stretches_.front().start_us;
+    for (Stretch& stretch : clock.stretches_) *stretch.start_us += move;
+    clock.source_ = Source::given;
+    clock.listed_parts_ = 0;
     return clock;
 }
 
@@ -114,8 +118,10 @@ VideoClock VideoClock::byFiles(const FoundMetadata& found) {
 }
 
 VideoClock VideoClock::of(const FoundMetadata& found, std::optional<std::int64_t> given_us) {
-    VideoClock clock = ofParts(found.parts, found.metadata, given_us);
-    return clock.source_ == Source::none ? byFiles(found) : clock;
+    if (given_us && found.parts.empty()) return startingAt(*given_us);
+    VideoClock clock = ofParts(found.parts, found.metadata, std::nullopt);
+    if (clock.source_ == Source::none) clock = byFiles(found);
+    return given_us ? begunAt(std::move(clock), *given_us) : clock;
 }
 
 std::optional<std::int64_t> VideoClock::at(std::int64_t video_us) const {
@@ -137,7 +143,7 @@ std::string VideoClock::origin() const {
             text = "the video's metadata";
             break;
         case Source::file:
-            text = "the file's creation time";
+            text = stretches_.size() > 1 ? "the files' creation times" : "the file's creation time";
             break;
         case Source::none:
             return "";
@@ -150,7 +156,7 @@ std::string VideoClock::origin() const {
                 (odd_stamps_ == 1 ? " stamp that disagrees" : " stamps that disagree");
     if (silent_parts_ > 0)
         text += "; " + std::to_string(silent_parts_) +
-                (silent_parts_ == 1 ? " part with no known start follows" : " parts of which nothing tells follow") +
+                (silent_parts_ == 1 ? " part with no known start follows" : " parts with no known start follow") +
                 " without a gap";
     return text;
 }

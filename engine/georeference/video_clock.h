@@ -53,6 +53,8 @@ class VideoClock {
     static std::optional<Stretch> stretchBy(const VideoMetadata& metadata, std::int64_t from_us,
                                             std::optional<int> part, int& odd_stamps);
     static VideoClock byFiles(const FoundMetadata& found);
+    /// The same with its gaps, from another beginning.
+    static VideoClock begunAt(VideoClock clock, std::int64_t given_us);
 
     Source source_ = Source::none;
     std::vector<Stretch> stretches_;                 ///< ascending

@@ -76,20 +76,28 @@ void GroundMosaic::layOut(const MosaicOptions& options) {
             extent.any = true;
         }
     }
+    const auto isWanted = [&](std::size_t sheet) {
+        const auto& wanted = options.wanted_sheets;
+        return wanted.empty() || std::find(wanted.begin(), wanted.end(), static_cast<int>(sheet)) != wanted.end();
+    };
     double area = 0;
     double longest = 1;
-    for (const Extent& extent : extents) {
+    for (std::size_t i = 0; i < extents.size(); ++i) {
+        const Extent& extent = extents[i];
+        if (!isWanted(i)) continue;
         area += extent.area().area();
         longest = std::max({longest, extent.area().width, extent.area().height});
     }
     const double budget = static_cast<double>(std::max<std::int64_t>(1, options.max_pixels));
     const double scale = std::min({1.0, std::sqrt(budget / std::max(1.0, area)), kLongestSide / longest});
-    for (const Extent& extent : extents) {
+    for (std::size_t i = 0; i < extents.size(); ++i) {
         MosaicSheet sheet;
-        sheet.area = extent.area();
-        sheet.px_per_unit = scale;
-        const cv::Size size(std::max(1, static_cast<int>(std::floor(sheet.area.width * scale))),
-                            std::max(1, static_cast<int>(std::floor(sheet.area.height * scale))));
+        sheet.area = extents[i].area();
+        sheet.px_per_unit = isWanted(i) ? scale : 1 / std::max({1.0, sheet.area.width, sheet.area.height});
+        const auto side = [&](double length) {
+            return std::max(1, static_cast<int>(std::floor(length * sheet.px_per_unit)));
+        };
+        const cv::Size size(side(sheet.area.width), side(sheet.area.height));
         sheet.picture = cv::Mat::zeros(size, colour_ ? CV_8UC3 : CV_8UC1);
         sheet.painted = cv::Mat::zeros(size, CV_8UC1);
         pictures_.push_back(std::move(sheet));

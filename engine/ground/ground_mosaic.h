@@ -14,6 +14,7 @@ struct MosaicOptions {
     std::int64_t max_pixels = 8'000'000;  ///< of all sheets together
     int wanted_frames = 400;              ///< that are painted, of all sheets together; two of each are at least
     bool colour = true;                   ///< else grey
+    std::vector<int> wanted_sheets = {};  ///< that get pixels, all others next to none; none: all
 };
 
 /// The ground of one sheet as it was seen, newest on top.

@@ -68,6 +68,7 @@ struct Counts {
 int print(const std::string& project, const std::string& ground_truth) {
     ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
     const RunStore store(file);
+    if (store.runs().empty()) throw Error(ErrorKind::project, project + ": holds no run");
     const StoredTracks stored = readTracks(store, store.runs().back());
     const std::vector<EventTrack> true_tracks = trueTracks(ground_truth, stored.footage);
     const auto truth = findEvents(true_tracks, stored.footage);

@@ -118,7 +118,7 @@ TEST(VideoClock, aPartOfWhichNothingTellsFollowsWithoutAGap) {
     EXPECT_EQ(clock.at(0), kBegin_us - 1'000'000) << "leads up to the first that is known";
     EXPECT_EQ(clock.at(1'000'000), kBegin_us);
     EXPECT_EQ(clock.at(2'250'000), kBegin_us + 1'250'000);
-    EXPECT_NE(clock.origin().find("2 parts of which nothing tells follow without a gap"), std::string::npos);
+    EXPECT_NE(clock.origin().find("2 parts with no known start follow without a gap"), std::string::npos);
     EXPECT_EQ(VideoClock::ofParts(threeParts(), nullptr, std::nullopt).source(), VideoClock::Source::none);
 }
 
@@ -166,6 +166,19 @@ TEST(VideoClock, everyPartBeginsWhenItsFileDidUnlessThatWasBefore) {
     found.parts[0].start_utc_us = kBegin_us - 5'000'000;
     EXPECT_EQ(VideoClock::of(found, std::nullopt).source(), VideoClock::Source::given) << "a list says it";
     EXPECT_EQ(VideoClock::of(found, std::nullopt).at(2'000'000), kBegin_us - 3'000'000);
+}
+
+TEST(VideoClock, aStartThatIsGivenKeepsTheGapsThatTheFilesTell) {
+    FoundMetadata found;
+    found.parts = threeParts();
+    for (std::size_t i = 0; i < 3; ++i) {
+        found.parts[i].start_utc_us.reset();
+        found.parts[i].created_utc_us = kBegin_us + static_cast<std::int64_t>(i) * 60'000'000;
+    }
+    const auto clock = VideoClock::of(found, kBegin_us + 3'600'000'000);
+    EXPECT_EQ(clock.at(0), kBegin_us + 3'600'000'000);
+    EXPECT_EQ(clock.at(found.parts[2].first_time_us), kBegin_us + 3'600'000'000 + 120'000'000);
+    EXPECT_EQ(clock.origin(), "the start time given");
 }
 
 TEST(VideoClock, aPartWhoseClockJumpsHasTheTimesOfItsMoments) {

@@ -50,6 +50,7 @@ ExportDialog::ExportDialog(ExportSource source, QWidget* parent)
     form_->addRow(tr("To"), place);
     form_->addRow(clip_);
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close);
+    close_ = buttons->button(QDialogButtonBox::Close);
     export_ = buttons->addButton(tr("Export"), QDialogButtonBox::ActionRole);
     export_->setDefault(true);
     auto* layout = new QVBoxLayout(this);
@@ -58,9 +59,8 @@ ExportDialog::ExportDialog(ExportSource source, QWidget* parent)
     layout->addWidget(buttons);
     onEdited(
         this, [this] { showFormat(); }, format_);
-    bindCommands(this, {{choose, [this] { browse(); }},
-                        {export_, [this] { startExport(); }},
-                        {buttons->button(QDialogButtonBox::Close), [this] { reject(); }}});
+    bindCommands(
+        this, {{choose, [this] { browse(); }}, {export_, [this] { startExport(); }}, {close_, [this] { reject(); }}});
     form_->setRowVisible(format_, source_.offers.size() > 1);
     showFormat();
 }
@@ -109,7 +109,9 @@ QString ExportDialog::report() const {
 }
 
 void ExportDialog::showWorking(bool working) {
-    export_->setText(working ? tr("Stop") : tr("Export"));
+    export_->setText(working && offer().can_stop ? tr("Stop") : tr("Export"));
+    for (QWidget* each : {static_cast<QWidget*>(export_), static_cast<QWidget*>(close_)})
+        each->setEnabled(!working || offer().can_stop);
     for (QWidget* each : {static_cast<QWidget*>(format_), static_cast<QWidget*>(target_)}) each->setEnabled(!working);
 }
 
@@ -120,9 +122,14 @@ void ExportDialog::showEnd(const QString& text, bool fine) {
     emit finishedExport(fine);
 }
 
+void ExportDialog::reject() {
+    // What takes moments is waited for by the person, not by the window.
+    if (!writing_ || offer().can_stop) QDialog::reject();
+}
+
 void ExportDialog::startExport() {
     if (writing_) {
-        writing_->request_stop();
+        if (offer().can_stop) writing_->request_stop();
         return;
     }
     if (target_->text().trimmed().isEmpty()) browse();

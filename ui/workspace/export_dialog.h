@@ -30,6 +30,7 @@ struct ExportOffer {
     QString holds;              ///< what it carries, and what it does not; may be empty
     bool asks_columns = false;  ///< a table whose columns a person names
     bool clips = false;         ///< boxes can be clipped to the image
+    bool can_stop = false;      ///< while it is written; else it takes moments
 };
 
 /// What a person chose to have written.
@@ -59,7 +60,7 @@ struct ExportSource {
 };
 
 /// Asks in which format and where to write something, writes it in the background, and tells what was written or lost.
-/// Nothing is replaced without consent. Closing it stops the writing.
+/// Nothing is replaced without consent. Closing it stops the writing, or waits until what takes moments is written.
 class ExportDialog : public QDialog {
     Q_OBJECT
 
@@ -75,6 +76,7 @@ class ExportDialog : public QDialog {
     void startExport();
     /// What was told last.
     QString report() const;
+    void reject() override;
 
  signals:
     void finishedExport(bool fine);
@@ -95,6 +97,7 @@ class ExportDialog : public QDialog {
     QCheckBox* clip_;
     QPlainTextEdit* text_;
     QPushButton* export_;
+    QPushButton* close_;
     QString agreed_;  ///< the target that somebody agreed to replace
     std::optional<std::stop_source> writing_;
     BackgroundQuery query_;  ///< last: stops before the rest goes

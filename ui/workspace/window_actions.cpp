@@ -31,7 +31,7 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
     save_copy = add(tr("Save a &copy…"), {"document-save", {}, QT_TR_NOOP("Save a copy, and go on working here")});
     restore_state = add(tr("Restore an &earlier state…"),
                         {"document-revert", {}, QT_TR_NOOP("What the project held on earlier days")});
-    export_tracks = add(tr("Export &tracks…"),
+    export_tracks = add(tr("E&xport tracks…"),
                         {"document-export",
                          {QKeySequence(tr("Ctrl+Shift+X"))},
                          QT_TR_NOOP("Write the tracks of this run for other programs, or into a copy of the video")});
@@ -255,9 +255,9 @@ void WindowActions::addEvents() {
     clip_event = add(tr("&Clip of the event…"),
                      {"document-export",
                       {QKeySequence(tr("Ctrl+Shift+C"))},
-                      QT_TR_NOOP("Cut the selected event out of the video, with or without the tracks")});
-    clip_track = add(tr("Clip of the trac&k…"),
-                     {nullptr, {}, QT_TR_NOOP("Cut the life of the selected track out of the video")});
+                      QT_TR_NOOP("Save the selected event as a video of its own, with or without the tracks")});
+    clip_track = add(tr("Clip of the track…"),
+                     {nullptr, {}, QT_TR_NOOP("Save the part of the video in which the selected track lives")});
     bookmark = add(tr("&Bookmark this frame…"), {"bookmark-new",
                                                  {QKeySequence(tr("Ctrl+F9"))},
                                                  QT_TR_NOOP("Mark the frame with a note, or change the note it has")});

@@ -24,9 +24,9 @@ struct BatchInput {
 using KnownFiles = std::map<std::filesystem::path, std::pair<BatchInput, bool>>;  ///< as they were; whether videos
 
 /// All videos in the files and folders that were named, and in the folders within, by name. A folder that holds images
-/// and no video is one input. A list of parts is one, and none of its parts is one by itself. Hidden files, and folders
-/// reached a second time through links, are left out; what cannot be looked into is an input with a fault. Files that
-/// were named themselves are taken for what they are said to be.
+/// and no video is one input. A list of parts is one, and none of its parts is one by itself, named or not. Hidden
+/// files, and folders reached a second time through links, are left out; what cannot be looked into is an input with a
+/// fault. Files that were named themselves are taken for what they are said to be.
 std::vector<BatchInput> findInputs(const std::vector<std::string>& places);
 std::vector<BatchInput> findInputs(const std::vector<std::string>& places, KnownFiles& files);
 

@@ -298,7 +298,7 @@ void addBenchCommand(CLI::App& app, int&) {
         ->check(CLI::Range(1, 100000));
     command->add_option("--warm-up", arguments->warm_up, "Frames before them that are not measured")
         ->capture_default_str()
-        ->check(CLI::Range(1, 100000));
+        ->check(CLI::Range(0, 100000));
     command->add_option("--corners", arguments->corners, "Numbers of corners to measure at")
         ->capture_default_str()
         ->check(CLI::Range(100, 50000));

@@ -81,14 +81,14 @@ int makeClip(const ClipArguments& arguments) {
     }
     const auto source = openInput(run.sequence.path, 0, interrupt.token(), run.sequence.frame_rate_hz);
     if (!range) range = framesAsked(arguments, source->info().frame_count);
-    range = framesLeft(*range, source->info());
     ConsoleProgress progress("% written");
     const auto show = [&](double share) {
         if (!arguments.quiet) progress.showShare(share);
     };
     const ClipWish wish{*range, arguments.overlay, arguments.events.uncorrected};
-    if (!writeClip(wish, project, run, *source, arguments.out, show, interrupt.token())) return exit_stopped;
-    std::printf("Clip: %s, frames %d to %d\n", arguments.out.c_str(), range->first, range->last);
+    const auto written = writeClip(wish, project, run, *source, arguments.out, show, interrupt.token());
+    if (!written) return exit_stopped;
+    std::printf("Clip: %s, frames %d to %d\n", arguments.out.c_str(), written->first, written->last);
     return exit_ok;
 }
 

@@ -83,7 +83,10 @@ void tellEvents(const ListArguments& arguments) {
     tellRemarks(stored, remarksOn(reviewed.zones, stored.footage));
     const JudgedEvents wanted = wantedOf(reviewed, choice);
     const FrameClock seconds = [&](FrameIndex frame) { return stored.secondsOf(frame); };
-    const FrameMoment moment = momentsBy(clockFor(arguments, reviewed.run), seconds);
+    const VideoClock clock = clockFor(arguments, reviewed.run);
+    if (clock.source() != VideoClock::Source::none)
+        std::fprintf(stderr, "eyrie-cli: clock times are those of %s\n", clock.origin().c_str());
+    const FrameMoment moment = momentsBy(clock, seconds);
     if (!arguments.csv.empty()) {
         writeEventCsv(arguments.csv, wanted.events, seconds, wanted.verdicts, wanted.numbers, makersOf(wanted, stored),
                       moment);

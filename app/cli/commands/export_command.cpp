@@ -97,16 +97,9 @@ void exportVmti(const ExportArguments& arguments, ProjectFile& project, const Ru
     const VmtiReport report = writeVmti(labels, *video, arguments.out, {}, interrupt.token());
     std::printf("%s: a copy of %s with %d VMTI sets of %d targets\n", arguments.out.c_str(), run.sequence.path.c_str(),
                 report.frames, report.targets);
-    std::printf("  times       %s\n", report.clock_origin.c_str());
-    std::printf("  places      %s\n",
-                report.place_origin.empty() ? labels.about.world->no_place.c_str() : report.place_origin.c_str());
+    for (const std::string& remark : remarksOn(report, labels.about.world->no_place))
+        std::printf("  note        %s\n", remark.c_str());
     for (const std::string& note : labels.about.notes) std::printf("  note        %s\n", note.c_str());
-    if (report.without_place > 0 && !report.place_origin.empty())
-        std::printf("  note        %d targets have no place\n", report.without_place);
-    if (report.without_stamp > 0)
-        std::printf("  note        %d frames are left out: their pictures have no stamp in the video\n",
-                    report.without_stamp);
-    std::printf("  note        written from what is publicly known about ST 0903.5; not checked with a validator\n");
 }
 
 void exportRun(const ExportArguments& arguments, ProjectFile& project) {

@@ -40,18 +40,7 @@ class TrackPainter {
     Annotator annotator_;
 };
 
-}  // namespace
-
-FrameRange framesAround(FrameRange event, double around_s, FrameRange whole,
-                        const std::function<double(FrameIndex)>& secondsOf) {
-    constexpr double kSlack_s = 1e-6;
-    const double begin = secondsOf(event.first) - around_s - kSlack_s;
-    const double end = secondsOf(event.last) + around_s + kSlack_s;
-    while (event.first > whole.first && secondsOf(event.first - 1) >= begin) --event.first;
-    while (event.last < whole.last && secondsOf(event.last + 1) <= end) ++event.last;
-    return event;
-}
-
+/// The range as far as the video goes, which may have become shorter since the run.
 FrameRange framesLeft(FrameRange range, const VideoInfo& video) {
     range.last = std::min(range.last, video.frame_count - 1);
     if (range.first > range.last) {
@@ -61,9 +50,23 @@ FrameRange framesLeft(FrameRange range, const VideoInfo& video) {
     return range;
 }
 
-bool writeClip(const ClipWish& wish, ProjectFile& project, const RunRecord& run, FrameSource& source,
-               const std::filesystem::path& out, const std::function<void(double)>& progress,
-               const std::stop_token& stop) {
+}  // namespace
+
+FrameRange framesAround(FrameRange event, double around_s, FrameRange whole,
+                        const std::function<double(FrameIndex)>& secondsOf) {
+    constexpr double kSlack_s = 1e-6;
+    event.first = std::clamp(event.first, whole.first, std::max(whole.first, whole.last));
+    event.last = std::clamp(event.last, event.first, std::max(event.first, whole.last));
+    const double begin = secondsOf(event.first) - around_s - kSlack_s;
+    const double end = secondsOf(event.last) + around_s + kSlack_s;
+    while (event.first > whole.first && secondsOf(event.first - 1) >= begin) --event.first;
+    while (event.last < whole.last && secondsOf(event.last + 1) <= end) ++event.last;
+    return event;
+}
+
+std::optional<FrameRange> writeClip(const ClipWish& wish, ProjectFile& project, const RunRecord& run,
+                                    FrameSource& source, const std::filesystem::path& out,
+                                    const std::function<void(double)>& progress, const std::stop_token& stop) {
     const auto [first, last] = framesLeft(wish.range, source.info());
     std::optional<TrackPainter> tracks;
     if (wish.overlay) tracks.emplace(wish, project, run);
@@ -76,7 +79,7 @@ bool writeClip(const ClipWish& wish, ProjectFile& project, const RunRecord& run,
         for (FrameIndex frame = first; frame <= last; ++frame) {
             if (stop.stop_requested()) {
                 writer.abandon();
-                return false;
+                return std::nullopt;
             }
             const Frame picture = source.read(frame, true);
             const cv::Mat image = tracks ? tracks->draw(picture) : colourOf(picture);
@@ -85,11 +88,11 @@ bool writeClip(const ClipWish& wish, ProjectFile& project, const RunRecord& run,
             if (progress) progress(static_cast<double>(frame - first + 1) / (last - first + 1));
         }
         writer.finish();
-    } catch (const Error&) {
+    } catch (...) {
         writer.abandon();  // half a clip is no evidence
         throw;
     }
-    return true;
+    return FrameRange{first, last};
 }
 
 }  // namespace eyrie

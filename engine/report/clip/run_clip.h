@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <stop_token>
 
 #include "chain/chain_run.h"
@@ -18,20 +19,17 @@ struct ClipWish {
     bool uncorrected = false;  ///< draw them as the run found them, whatever people corrected
 };
 
-/// `event` with what lies up to `around_s` seconds before and after it, as far as `whole` goes. `secondsOf` answers the
+/// `event`, which is brought into `whole`, with what lies up to `around_s` seconds before and after it, as far as that
+/// goes. `secondsOf` answers the
 /// time of a frame, which need not be even.
 FrameRange framesAround(FrameRange event, double around_s, FrameRange whole,
                         const std::function<double(FrameIndex)>& secondsOf);
 
-/// Writes the frames at their distances in time. Answers whether all was written; stopped or failed, there is no file.
-/// `progress` (0 … 1) may be empty. Throws Error(input) where the video ends before the range begins, Error(output),
-/// Error(project).
-bool writeClip(const ClipWish& wish, ProjectFile& project, const RunRecord& run, FrameSource& source,
-               const std::filesystem::path& out, const std::function<void(double)>& progress = {},
-               const std::stop_token& stop = {});
-
-/// The range as far as the video goes, which may have become shorter since the run. Throws Error(input) where nothing
-/// of it is left.
-FrameRange framesLeft(FrameRange range, const VideoInfo& video);
+/// Writes the frames of `wish.range` at their distances in time, as far as the video goes, and answers which these
+/// were. Stopped or failed, there is no file; stopped, there is no answer either. `progress` (0 … 1) may be empty.
+/// Throws Error(input) where the video ends before the range begins, Error(output), Error(project).
+std::optional<FrameRange> writeClip(const ClipWish& wish, ProjectFile& project, const RunRecord& run,
+                                    FrameSource& source, const std::filesystem::path& out,
+                                    const std::function<void(double)>& progress = {}, const std::stop_token& stop = {});
 
 }  // namespace eyrie

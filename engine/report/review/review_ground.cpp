@@ -93,7 +93,7 @@ std::vector<std::pair<int, std::vector<std::size_t>>> sheetsOf(const std::vector
 }  // namespace
 
 GroundChapter addGround(const ReviewScene& scene, const std::vector<std::size_t>& events, FrameSource& pixels,
-                        ReportFile& report, const std::stop_token& stop) {
+                        ReportFile& report, const std::function<void(double)>& progress, const std::stop_token& stop) {
     GroundChapter chapter;
     const Footage& footage = scene.input().reviewed.tracks.footage;
     const auto sheets = std::make_shared<const GroundSheets>(footage, footage.first_frame);
@@ -101,9 +101,13 @@ GroundChapter addGround(const ReviewScene& scene, const std::vector<std::size_t>
     if (ordered.empty()) return chapter;
     for (std::size_t i = kMostSheets; i < ordered.size(); ++i) chapter.left_out += ordered[i].second.size();
     if (ordered.size() > kMostSheets) ordered.resize(kMostSheets);
-    GroundMosaic mosaic(sheets, {kMostPixels, kWantedFrames, true});
+    MosaicOptions options{kMostPixels, kWantedFrames};
+    for (const auto& sheet : ordered) options.wanted_sheets.push_back(sheet.first);
+    GroundMosaic mosaic(sheets, options);
+    double done = 0;
     for (const FrameIndex frame : mosaic.frames()) {
         if (stop.stop_requested()) return {};
+        if (progress) progress(++done / static_cast<double>(mosaic.frames().size()));
         const bool shown = std::any_of(ordered.begin(), ordered.end(),
                                        [&](const auto& sheet) { return sheet.first == sheets->sheetOf(frame); });
         if (shown && frame < pixels.info().frame_count) mosaic.paint(pixels.read(frame, true));

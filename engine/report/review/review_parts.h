@@ -52,9 +52,10 @@ struct GroundChapter {
     std::size_t left_out = 0;           ///< events on stretches that have no picture
 };
 /// Adds mosaics of the ground with the ways of the vehicles of `events`, as indices, and the events' places and
-/// numbers. Throws Error(input) where the video cannot be read. Stopped, there is none.
+/// numbers. `progress` (0 … 1) may be empty. Throws Error(input) where the video cannot be read. Stopped, there is
+/// none.
 GroundChapter addGround(const ReviewScene& scene, const std::vector<std::size_t>& events, FrameSource& pixels,
-                        ReportFile& report, const std::stop_token& stop);
+                        ReportFile& report, const std::function<void(double)>& progress, const std::stop_token& stop);
 
 /// "Ada at 2026-11-21T08:00:00Z"; empty where nobody is known.
 std::string judgeText(const Verdict& verdict);

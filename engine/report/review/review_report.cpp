@@ -167,12 +167,12 @@ std::string addStills(const ReviewScene& scene, const std::vector<std::size_t>& 
 }
 
 void tellGround(ReportPage& page, const ReviewScene& scene, const std::vector<std::size_t>& chosen, FrameSource* pixels,
-                ReportFile& report, const std::stop_token& stop) {
+                ReportFile& report, const std::function<void(double)>& progress, const std::stop_token& stop) {
     if (chosen.empty() || pixels == nullptr) return;
     GroundChapter ground;
     try {
-        ground = addGround(scene, chosen, *pixels, report, stop);
-    } catch (const Error& error) {
+        ground = addGround(scene, chosen, *pixels, report, progress, stop);
+    } catch (const std::exception& error) {
         page.chapter("The ground");
         page.paragraph("There is no picture of the ground: " + markupEscaped(error.what()) + ".");
         return;
@@ -183,7 +183,8 @@ void tellGround(ReportPage& page, const ReviewScene& scene, const std::vector<st
         "What was seen of the ground, from above. Rings are the places of the events with their numbers; lines are the "
         "ways of their vehicles, blue while the event lasts.";
     if (ground.left_out > 0)
-        text += " " + std::to_string(ground.left_out) + " events lie on ground that is not shown here.";
+        text += " " + std::to_string(ground.left_out) + (ground.left_out == 1 ? " event lies" : " events lie") +
+                " on ground that is not shown here.";
     page.paragraph(text);
     for (const std::string& name : ground.pictures) page.paragraph(picture(name));
 }
@@ -260,7 +261,13 @@ ReportFile makeReviewReport(const ReviewReportInput& input, FrameSource* pixels,
     ReportFile report;
     const ReviewScene scene(input);
     const std::vector<std::size_t> chosen = chosenEvents(input);
-    const std::string trouble = addStills(scene, chosen, pixels, report, progress, stop);
+    // Stills and the ground take about the same time.
+    const auto halfOf = [&progress](double begin) {
+        return [&progress, begin](double share) {
+            if (progress) progress(begin + share / 2);
+        };
+    };
+    const std::string trouble = addStills(scene, chosen, pixels, report, halfOf(0), stop);
     ReportPage page;
     tellReviewedVideo(page, scene);
     page.chapter("Events");
@@ -275,7 +282,7 @@ ReportFile makeReviewReport(const ReviewReportInput& input, FrameSource* pixels,
             "event blue, its place ringed; an arrow where the track ends.");
     }
     for (const std::size_t index : chosen) tellEvent(page, scene, index, report);
-    tellGround(page, scene, chosen, pixels, report, stop);
+    tellGround(page, scene, chosen, pixels, report, halfOf(0.5), stop);
     tellRemainder(page, scene);
     const std::string name = std::filesystem::path(input.reviewed.run.sequence.path).filename().string();
     report.html = reportPage("Events of " + name + ", run " + std::to_string(input.reviewed.run.id), page.take());

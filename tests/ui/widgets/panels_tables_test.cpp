@@ -76,6 +76,7 @@ class TablesTest : public QObject {
         add(QStringLiteral("5.00 km/h"), 5, QStringLiteral("south"));
         add(QStringLiteral("3, 5"), 3, QStringLiteral("south"));
         add(QStringLiteral("1,005"), 1005, QStringLiteral("south"));
+        add(QStringLiteral("22:08:24"), 7000, QStringLiteral("south"));
         TableSortProxy proxy;
         proxy.setSourceModel(&model);
         const auto found = [&](const char* text) {
@@ -88,8 +89,22 @@ class TablesTest : public QObject {
         QCOMPARE(found("15"), QStringLiteral("15"));
         QCOMPARE(found("1005"), QStringLiteral("1,005"));
         QCOMPARE(found("5.0"), QStringLiteral("5.00 km/h"));
+        QCOMPARE(found("22"), QStringLiteral("22:08:24"));  // a time is found as one types it
         QCOMPARE(found("gat 15"), QStringLiteral("15"));
         QCOMPARE(found("outh 5"), QStringLiteral("5.00 km/h | 3, 5"));
+    }
+
+    void ctrlAddsARowAlthoughTheRowIsSelectedElsewhereToo() {
+        TracksModel model;
+        TracksPanel panel(&model);
+        model.setTracks(several(5, sampleTrack), {});
+        panel.resize(700, 300);
+        panel.show();
+        panel.setCommands({.select = [&](int track) { panel.selectId(track); }});
+        clickRow(panel, 0);
+        const QRect row = panel.table()->visualRect(panel.table()->model()->index(1, 0));
+        QTest::mouseClick(panel.table()->viewport(), Qt::LeftButton, Qt::ControlModifier, row.center());
+        QCOMPARE(panel.selectedIds(), (QList<int>{1, 2}));
     }
 
     void choosingARunTellsIt() {

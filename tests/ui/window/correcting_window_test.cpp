@@ -247,9 +247,10 @@ class CorrectingWindowTest : public QObject {
         QVERIFY(goTo(*window, whole.first_frame));
         QVERIFY(window->actions().split_track->isEnabled());
         const WindowActions& commands = window->actions();
-        QCOMPARE(menuOf(window->review().tracks()).last(6),
-                 QList<QAction*>({commands.follow_object, commands.like_track, commands.join_tracks,
-                                  commands.split_track, commands.reject_tracks, commands.remove_correction}));
+        QCOMPARE(
+            menuOf(window->review().tracks()).last(7),
+            QList<QAction*>({commands.follow_object, commands.like_track, commands.join_tracks, commands.split_track,
+                             commands.reject_tracks, commands.remove_correction, commands.clip_track}));
         window->activateWindow();
         QVERIFY(QTest::qWaitForWindowActive(window.get()));
         QTest::keyClick(&window->canvas(), Qt::Key_Y, Qt::ShiftModifier);

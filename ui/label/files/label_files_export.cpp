@@ -79,10 +79,10 @@ ExportSource labelExport(const LabelSession& labels) {
     source.files = [sequence](const ExportWish& wish) {
         return labelOutputs(wish, exportOptionsOf(wish, sequence.path));
     };
-    const auto set = std::make_shared<const AnnotationSet>(labels.annotations());
-    source.begin = [set, sequence, camera = labels.sharedCamera()](const ExportWish& wish) -> ExportWork {
-        return [=](const ExportProgress&, const std::stop_token&) {
-            return exportText(writeLabels(labelsOf(*set, sequence, *camera), wish.path, wish.format,
+    source.begin = [&labels](const ExportWish& wish) -> ExportWork {
+        return [set = labels.annotations(), sequence = labels.sequence(), camera = labels.sharedCamera(), wish](
+                   const ExportProgress&, const std::stop_token&) {
+            return exportText(writeLabels(labelsOf(set, sequence, *camera), wish.path, wish.format,
                                           exportOptionsOf(wish, sequence.path)));
         };
     };

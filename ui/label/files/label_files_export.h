@@ -18,7 +18,7 @@ QString exportText(const ExportReport& report);
 /// The options that a wish comes to. `video` names the sequence.
 ExportOptions exportOptionsOf(const ExportWish& wish, const std::filesystem::path& video);
 
-/// The labels as they are now, in any format. `labels` must be open.
+/// The labels as they are when they are exported, in any format. `labels` must be open and outlive it.
 ExportSource labelExport(const LabelSession& labels);
 
 }  // namespace eyrie::ui

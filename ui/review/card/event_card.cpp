@@ -29,9 +29,9 @@ EventCard::EventCard(QWidget* parent) : QWidget(parent), loop_(kChipPeriod_ms, [
     picture_->setAccessibleName(tr("The vehicle, two seconds before to two after"));
     stacked_ = new QLabel;
     stacked_->setAlignment(Qt::AlignCenter);
-    stacked_->setToolTip(tr("The vehicle over some 25 frames laid on one another, heading to the right"));
+    stacked_->setToolTip(tr("The vehicle, stacked from about 25 frames, facing right"));
     stacked_->setAccessibleName(stacked_->toolTip());
-    stacked_->hide();
+    stacked_->setFixedSize(StoryLoader::kChipSize, StoryLoader::kChipSize / 2);  // what is below does not jump
     speed_ = new StorySketch(StorySketch::Kind::speed);
     speed_->setMaximumHeight(kSpeedLines * fontMetrics().lineSpacing());
     way_ = new StorySketch(StorySketch::Kind::way);
@@ -111,11 +111,12 @@ void EventCard::setStory(const std::shared_ptr<const VehicleStory>& story, const
     // The loop goes on where only the stack has come.
     if (!story_ || chip_ >= story_->chips.size()) chip_ = 0;
     const bool has_stack = story_ && !story_->stack.isNull();
-    if (has_stack)
+    if (!has_stack)
+        stacked_->setPixmap({});
+    else
         stacked_->setPixmap(QPixmap::fromImage(story_->stack)
                                 .scaled(StoryLoader::kChipSize, StoryLoader::kChipSize / 2, Qt::KeepAspectRatio,
                                         Qt::SmoothTransformation));
-    stacked_->setVisible(has_stack);
     if (!story_ || story_->chips.empty()) picture_->setPixmap({});
 }
 

@@ -129,6 +129,8 @@ void TablePanel::buildTable(std::optional<int> sort_column) {
         const int id = idOf(now);
         if (!telling_ || id == 0) return;
         kept_id_ = id;
+        // The row is current, but not selected yet: who selects what was told would undo what Ctrl adds to.
+        const QScopedValueRollback<int> telling(told_id_, id);
         rowSelected(id);
     });
     connect(table_, &QTableView::clicked, this,
@@ -164,6 +166,7 @@ QString TablePanel::hiddenText() const {
 void TablePanel::selectId(int id) {
     const QScopedValueRollback<bool> quiet(telling_, false);
     kept_id_ = id;
+    if (id != 0 && id == told_id_) return;
     for (int row = 0; id != 0 && row < proxy_->rowCount(); ++row) {
         if (idOf(proxy_->index(row, 0)) != id) continue;
         const QModelIndex found = proxy_->index(row, shownColumns().value(0));

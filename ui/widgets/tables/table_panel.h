@@ -94,6 +94,7 @@ class TablePanel : public QWidget {
     bool columns_fit_ = false;  ///< widths were remembered, or fitted to the first rows
     int kept_id_ = 0;           ///< selected by user or program; selected again when its row comes back
     bool telling_ = true;       ///< false while the program selects
+    int told_id_ = 0;           ///< the row that rowSelected() is being told of
 };
 
 }  // namespace eyrie::ui

@@ -18,16 +18,19 @@ std::optional<double> wholeNumberOf(const QString& word) {
     return digits && word.size() <= kMostDigits ? std::optional(word.toDouble()) : std::nullopt;
 }
 
-/// Whether a cell says this number, alone or among words and units: "5", "5.0", "★ 5", "3, 5", but not "15".
-bool saysNumber(const QString& cell, double number) {
+/// Whether a cell says this number, alone or among words and units: "5", "5.0", "★ 5", "3, 5", but not "15"; nothing
+/// where it says none, such as a time does: "0:12".
+std::optional<bool> saysNumber(const QString& cell, double number) {
     const QLocale locale;
+    bool any = false;
     for (QString part : cell.split(QLatin1Char(' '), Qt::SkipEmptyParts)) {
         while (!part.isEmpty() && !part.back().isDigit()) part.chop(1);
         bool is_number = false;
         const double value = locale.toDouble(part, &is_number);
         if (is_number && value == number) return true;
+        any = any || is_number;
     }
-    return false;
+    return any ? std::optional(false) : std::nullopt;
 }
 
 bool isNumber(const QVariant& value) {
@@ -71,8 +74,8 @@ bool TableSortProxy::filterAcceptsRow(int source_row, const QModelIndex& source_
         for (int column = 0; column < sourceModel()->columnCount(source_parent); ++column) {
             const QModelIndex cell = sourceModel()->index(source_row, column, source_parent);
             const QString text = cell.data().toString();
-            const bool whole = number && isNumber(cell.data(sort_role));
-            if (whole ? saysNumber(text, *number) : text.contains(word, Qt::CaseInsensitive)) return true;
+            const auto said = number && isNumber(cell.data(sort_role)) ? saysNumber(text, *number) : std::nullopt;
+            if (said.value_or(text.contains(word, Qt::CaseInsensitive))) return true;
         }
         return false;
     };

@@ -30,7 +30,8 @@ class ClipDialog : public ExportDialog {
     void setOverlay(bool overlay);
 
  private:
-    ExportSource sourceFor(const ProjectSession& session, const ClipSubject& subject);
+    /// `self` is asked for its choices when somebody exports; it need not have been made yet.
+    static ExportSource sourceFor(const ClipDialog* self, const ProjectSession& session, const ClipSubject& subject);
 
     QDoubleSpinBox* around_;
     QCheckBox* overlay_;

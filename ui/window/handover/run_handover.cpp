@@ -43,7 +43,7 @@ void RunHandover::exportTracks() {
 void RunHandover::clipOfEvent() {
     const auto place = parts_.events.currentPlace();
     const Event* event = place ? parts_.events.model().found()->eventAt(*place) : nullptr;
-    if (event == nullptr) return remind(tr("Select an event first; its clip is cut around it."));
+    if (event == nullptr) return remind(tr("Select an event first; the clip covers it and what is around it."));
     const QString number = eventNumberText(*parts_.events.model().found(), *place);
     ClipDialog dialog(parts_.session, {tr("Clip of event %1").arg(number), {event->first_frame, event->last_frame}},
                       &parts_.window);
@@ -53,7 +53,7 @@ void RunHandover::clipOfEvent() {
 void RunHandover::clipOfTrack() {
     const auto track = parts_.session.selectedTrack();
     const TrackSummary* life = track ? parts_.session.trackSummary(*track) : nullptr;
-    if (life == nullptr) return remind(tr("Select a track first; its clip is as long as its life."));
+    if (life == nullptr) return remind(tr("Select a track first; the clip covers the whole track."));
     ClipDialog dialog(parts_.session, {tr("Clip of track %1").arg(*track), {life->first_frame, life->last_frame}},
                       &parts_.window);
     dialog.exec();

@@ -29,22 +29,18 @@ struct ExportedRun {
 };
 
 ExportOffer vmtiOffer() {
-    return {QString::fromLatin1(kVmtiFormat), tell("MISB ST 0903 VMTI in a copy of the video"), QStringLiteral("ts"),
-            tell("targets with ids, confidence, boxes, and places where they are known; not: rotation")};
+    ExportOffer offer;
+    offer.name = QString::fromLatin1(kVmtiFormat);
+    offer.title = tell("MISB ST 0903 VMTI in a copy of the video");
+    offer.ending = QStringLiteral("ts");
+    offer.holds = tell("targets with ids, confidence, boxes, and places where they are known; not: rotation");
+    offer.can_stop = true;
+    return offer;
 }
 
 QString vmtiText(const VmtiReport& report, const LabelStream& labels) {
-    QString text =
-        tell("Wrote a copy of the video with %1 sets of %2 targets.\n").arg(report.frames).arg(report.targets);
-    text += tell("Times: %1\n").arg(QString::fromStdString(report.clock_origin));
-    text += tell("Places: %1\n")
-                .arg(QString::fromStdString(report.place_origin.empty() ? labels.about.world->no_place
-                                                                        : report.place_origin));
-    if (report.without_place > 0 && !report.place_origin.empty())
-        text += tell("%1 targets have no place.\n").arg(report.without_place);
-    if (report.without_stamp > 0)
-        text += tell("%1 frames are left out: their pictures have no stamp in the video.\n").arg(report.without_stamp);
-    return text + lines(labels.about.notes);
+    return tell("Wrote a copy of the video with %1 sets of %2 targets.\n").arg(report.frames).arg(report.targets) +
+           lines(remarksOn(report, labels.about.world->no_place)) + lines(labels.about.notes);
 }
 
 std::unique_ptr<FrameSource> pixelsOf(const ExportedRun& run, bool needed, const std::stop_token& stop) {
@@ -69,6 +65,7 @@ std::optional<QString> writeTracks(const ExportedRun& run, const ExportWish& wis
     std::unique_ptr<FrameSource> pixels;
     if (tellsWorld(wish.format)) {
         pixels = pixelsOf(run, as_video, stop);
+        if (stop.stop_requested()) return std::nullopt;
         addWorld(labels, project, run.record, pixels.get(), {}, stop);
     }
     if (!as_video) {
@@ -100,8 +97,13 @@ ExportSource trackExport(const ProjectSession& session) {
         return labelOutputs(wish, exportOptionsOf(wish, run.record.sequence.path));
     };
     source.begin = [run](const ExportWish& wish) -> ExportWork {
-        return [run, wish](const ExportProgress& progress, const std::stop_token& stop) {
-            return writeTracks(run, wish, progress, stop);
+        return [run, wish](const ExportProgress& progress, const std::stop_token& stop) -> std::optional<QString> {
+            try {
+                return writeTracks(run, wish, progress, stop);
+            } catch (const Error&) {
+                if (stop.stop_requested()) return std::nullopt;
+                throw;
+            }
         };
     };
     return source;

@@ -1,9 +1,6 @@
 #pragma once
 
-#include "chain/chain_run.h"
 #include "workspace/export_dialog.h"
-
-class QWidget;
 
 namespace eyrie::ui {
 
