@@ -96,7 +96,8 @@ TEST_F(HandedOver, AnEventIsCutOutWithTwoSecondsBeforeAndAfter) {
     std::string line;
     std::getline(table, line);
     ASSERT_TRUE(std::getline(table, line)) << "no event";
-    const std::string number = line.substr(line.rfind(',') + 1);
+    const std::string before_utc = line.substr(0, line.rfind(','));
+    const std::string number = before_utc.substr(before_utc.rfind(',') + 1);
     const int first = std::stoi(line.substr(line.find(',') + 1));
     EXPECT_NEAR(first, 100, 10);
     const auto result = call({"clip", "--project", "@p.eyrie", "--event", number, "--out", "@stop.mp4", "--quiet"});

@@ -162,7 +162,7 @@ TEST(VideoClock, everyPartBeginsWhenItsFileDidUnlessThatWasBefore) {
     EXPECT_EQ(clock.source(), VideoClock::Source::file);
     EXPECT_EQ(clock.at(1'500'000), kBegin_us + 1'500'000) << "one time for both: the second goes on";
     EXPECT_EQ(clock.at(2'000'000), kBegin_us + 60'000'000);
-    EXPECT_EQ(clock.origin(), "the file's creation time");
+    EXPECT_EQ(clock.origin(), "the files' creation times");
     found.parts[0].start_utc_us = kBegin_us - 5'000'000;
     EXPECT_EQ(VideoClock::of(found, std::nullopt).source(), VideoClock::Source::given) << "a list says it";
     EXPECT_EQ(VideoClock::of(found, std::nullopt).at(2'000'000), kBegin_us - 3'000'000);

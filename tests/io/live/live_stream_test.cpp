@@ -320,9 +320,9 @@ TEST(LiveAddresses, SayWhatIsWrongWithThemAndWhatTheyLookLike) {
                                                     {"udp://239.0.0.1", "udp://239.0.0.1:5000"},
                                                     {"udp://", "the port is missing"},
                                                     {"srt://[::1]", "the port is missing"},
-                                                    {"tcp://camera:0", "“0” is no port"},
-                                                    {"tcp://camera:port", "“port” is no port"},
-                                                    {"rtsp://camera:99999/x", "“99999” is no port"}};
+                                                    {"tcp://camera:0", "“0” is not a port"},
+                                                    {"tcp://camera:port", "“port” is not a port"},
+                                                    {"rtsp://camera:99999/x", "“99999” is not a port"}};
     for (const auto& [address, fault] : faults) EXPECT_THAT(faultOfAddress(address), HasSubstr(fault)) << address;
 }
 

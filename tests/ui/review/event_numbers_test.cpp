@@ -46,7 +46,7 @@ std::map<int, std::string> numbersOnTheCommandLine(const std::filesystem::path& 
     std::getline(file, line);
     while (std::getline(file, line)) {
         QStringList words = QString::fromStdString(line).split(QLatin1Char(','));
-        found[words.last().toInt()] = (words[0] + ' ' + words[1] + ' ' + words[6]).toStdString();
+        found[words[words.size() - 2].toInt()] = (words[0] + ' ' + words[1] + ' ' + words[6]).toStdString();
     }
     return found;
 }

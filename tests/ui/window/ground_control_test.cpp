@@ -160,7 +160,7 @@ class GroundControlTest : public QObject {
         });
         QTest::mouseClick(&window->canvas(), Qt::LeftButton, {}, inView(*window, {50, 50}));
         QCOMPARE(asked.size(), 2);
-        QVERIFY(reasons[1].contains(QStringLiteral("“Munich” is no place")));
+        QVERIFY(reasons[1].contains(QStringLiteral("“Munich” is not a place")));
         QCOMPARE(asked[1], QStringLiteral("Munich"));  // can be mended
         QCOMPARE(control(*window).points().size(), std::size_t(1));
         QVERIFY(qAbs(control(*window).points()[0].place.latitude_deg - 48.137167) < 1e-5);
@@ -187,7 +187,7 @@ class GroundControlTest : public QObject {
         QVERIFY(model.setData(place, QStringLiteral("48.001 N, 11.002 E"), Qt::EditRole));
         QCOMPARE(control(*window).points()[1].place, (GeoPoint{48.001, 11.002}));
         model.setData(place, QStringLiteral("nowhere"), Qt::EditRole);
-        QVERIFY(tells(*window, QStringLiteral("“nowhere” is no place")));
+        QVERIFY(tells(*window, QStringLiteral("“nowhere” is not a place")));
         control(*window).panel().table()->selectRow(3);
         QTest::keyClick(control(*window).panel().table(), Qt::Key_Delete);
         QVERIFY(isStored(*window, 3));

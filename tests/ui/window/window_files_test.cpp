@@ -93,7 +93,7 @@ class WindowFilesTest : public QObject {
 
     void aFrameRateThatNobodySaidIsAskedForMarkedAndRemembered() {
         const auto folder = images("a");
-        const QString asked = QStringLiteral("25 per second are assumed until you say it");
+        const QString asked = QStringLiteral("25 frames per second are assumed until you enter it");
         {
             MainWindow window;
             QVERIFY(runs(window, folder));

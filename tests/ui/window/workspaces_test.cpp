@@ -366,10 +366,10 @@ class WorkspacesTest : public QObject {
 
     void noKeyMeansTwoThings() {
         // On the canvas arrows move what is selected: a box by pixels, the event of the queue, and where nothing is,
-        // the frame. Escape leaves what was begun and clears the selection.
-        const QStringList alike{QStringLiteral("Left"),        QStringLiteral("Right"),   QStringLiteral("Shift+Left"),
-                                QStringLiteral("Shift+Right"), QStringLiteral("Ctrl+Up"), QStringLiteral("Ctrl+Down"),
-                                QStringLiteral("Esc")};
+        // the frame. Escape leaves what was begun and clears the selection. Backspace rejects what is selected.
+        const QStringList alike{QStringLiteral("Left"),        QStringLiteral("Right"),    QStringLiteral("Shift+Left"),
+                                QStringLiteral("Shift+Right"), QStringLiteral("Ctrl+Up"),  QStringLiteral("Ctrl+Down"),
+                                QStringLiteral("Esc"),         QStringLiteral("Backspace")};
         const auto window = this->window();
         QVERIFY(window);
         const auto plain = [](const QAction* action) { return action->text().remove(QLatin1Char('&')); };
