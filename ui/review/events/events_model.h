@@ -72,7 +72,6 @@ class EventsModel : public RecordModel<EventEntry> {
 
     int idAt(const FoundEvents& found, std::size_t position, std::map<EventIdentity, int>& doubles);
     QString textOf(const EventEntry& entry, int column) const;
-    QString timeOf(const EventEntry& entry) const;
     QVariant sortValueOf(const EventEntry& entry, int column) const;
 
     std::shared_ptr<const FoundEvents> found_;
