@@ -10,6 +10,7 @@
 
 #include "core/geometry/angle.h"
 #include "review/track_inspector.h"
+#include "review/tracks_model.h"
 #include "widgets/display_text.h"
 #include "widgets/wiring.h"
 
@@ -45,7 +46,7 @@ QString scoreOfTrack(const ProjectSession& session, TrackId track) {
     const TrackSummary* summary = session.trackSummary(track);
     if (summary == nullptr) return {};
     const QString score = numberText(summary->score, 2);
-    if (summary->corrected == CorrectionKind::reject) return QObject::tr("%1, rejected by a person").arg(score);
+    if (isRejected(*summary)) return QObject::tr("%1, rejected by a person").arg(score);
     return summary->doubtful ? QObject::tr("%1, below %2: left out of the result")
                                    .arg(score, numberText(session.runData()->score_threshold, 2))
                              : score;

@@ -24,13 +24,7 @@ void TracksModel::setLikeness(std::shared_ptr<const LikenessByTrack> likeness) {
 
 void TracksModel::setClock(ClockOfFrames clock) {
     clock_ = std::move(clock);
-    emit headerDataChanged(Qt::Horizontal, first_column, last_column);
-    if (rowCount() > 0) emit dataChanged(index(0, first_column), index(rowCount() - 1, last_column));
-}
-
-QString TracksModel::timeOf(FrameIndex frame) const {
-    const QString time = clock_.time(frame);
-    return time.isEmpty() ? QString::number(frame) : time;
+    tellClockChanged(*this, first_column, last_column);
 }
 
 QString TracksModel::tipOf(const TrackSummary& track) const {
@@ -76,9 +70,9 @@ QString TracksModel::textOf(const TrackSummary& track, int column) const {
         case id_column:
             return QString::number(track.id);
         case first_column:
-            return timeOf(track.first_frame);
+            return clock_.timeOr(track.first_frame, QString::number(track.first_frame));
         case last_column:
-            return timeOf(track.last_frame);
+            return clock_.timeOr(track.last_frame, QString::number(track.last_frame));
         case life_column:
             return numberText(secondsOf(track), 1);
         case speed_column:

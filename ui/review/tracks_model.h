@@ -51,7 +51,6 @@ class TracksModel : public RecordModel<TrackSummary> {
 
  private:
     QString textOf(const TrackSummary& track, int column) const;
-    QString timeOf(FrameIndex frame) const;
     QString tipOf(const TrackSummary& track) const;
     /// What a column holds, for its title's tooltip.
     QString helpOf(int column) const;

@@ -24,6 +24,23 @@ constexpr double kSmallestZoom = 0.1;
 constexpr double kLargestZoom = 32;
 constexpr double kStep = 1.25;
 
+/// What a key does to the pictures; with a modifier it belongs to the window.
+enum class ChipGridKey { none, nearer, farther, fit };
+
+ChipGridKey chipGridKey(const QKeyEvent& key) {
+    if (key.modifiers() & ~(Qt::KeypadModifier | Qt::ShiftModifier)) return ChipGridKey::none;
+    switch (key.key()) {
+        case Qt::Key_Plus:
+            return ChipGridKey::nearer;
+        case Qt::Key_Minus:
+            return ChipGridKey::farther;
+        case Qt::Key_0:
+            return ChipGridKey::fit;
+        default:
+            return ChipGridKey::none;
+    }
+}
+
 QSizeF sizeOf(const Chip& chip) {
     if (!chip.image.isNull()) return chip.image.size();
     return {static_cast<double>(chip.values.cols), static_cast<double>(chip.values.rows)};
@@ -332,21 +349,22 @@ void ChipGrid::wheelEvent(QWheelEvent* event) {
 }
 
 void ChipGrid::keyPressEvent(QKeyEvent* event) {
-    if (event->key() == Qt::Key_Plus)
-        zoomBy(kStep);
-    else if (event->key() == Qt::Key_Minus)
-        zoomBy(1 / kStep);
-    else if (event->key() == Qt::Key_0)
-        fit();
-    else
-        QAbstractScrollArea::keyPressEvent(event);
+    switch (chipGridKey(*event)) {
+        case ChipGridKey::nearer:
+            return zoomBy(kStep);
+        case ChipGridKey::farther:
+            return zoomBy(1 / kStep);
+        case ChipGridKey::fit:
+            return fit();
+        case ChipGridKey::none:
+            QAbstractScrollArea::keyPressEvent(event);
+    }
 }
 
 bool ChipGrid::event(QEvent* event) {
     if (event->type() == QEvent::ShortcutOverride) {
         // The window's own + and − zoom the video; while the pictures have the focus they are meant.
-        const int key = static_cast<QKeyEvent*>(event)->key();
-        if (key == Qt::Key_Plus || key == Qt::Key_Minus || key == Qt::Key_0) {
+        if (chipGridKey(*static_cast<QKeyEvent*>(event)) != ChipGridKey::none) {
             event->accept();
             return true;
         }

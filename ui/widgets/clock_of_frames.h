@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QAbstractItemModel>
 #include <QString>
 #include <functional>
 
@@ -17,6 +18,18 @@ struct ClockOfFrames {
     std::function<QString()> origin = [] { return QString(); };
 
     bool known() const { return !origin().isEmpty(); }
+    /// The time of the day, or what stands in its place where nobody knows.
+    QString timeOr(FrameIndex frame, const QString& otherwise) const {
+        const QString told = time(frame);
+        return told.isEmpty() ? otherwise : told;
+    }
 };
+
+/// Tells the views of a list that these columns and their titles follow another clock.
+inline void tellClockChanged(QAbstractItemModel& list, int first_column, int last_column) {
+    emit list.headerDataChanged(Qt::Horizontal, first_column, last_column);
+    const int rows = list.rowCount();
+    if (rows > 0) emit list.dataChanged(list.index(0, first_column), list.index(rows - 1, last_column));
+}
 
 }  // namespace eyrie::ui

@@ -7,6 +7,7 @@
 #include "core/project_name.h"
 #include "core/text.h"
 #include "core/time_text.h"
+#include "core/utc_time.h"
 
 namespace eyrie::ui {
 namespace {
@@ -61,6 +62,11 @@ QString durationText(double seconds) {
     return QStringLiteral("%1:%2:%3").arg(whole / 3600).arg(whole / 60 % 60, 2, 10, zero).arg(whole % 60, 2, 10, zero);
 }
 
+QString utcMomentText(std::int64_t utc_us) {
+    QString text = QString::fromStdString(utcTextToMilliseconds(utc_us)).remove(QLatin1Char('Z'));
+    return QObject::tr("%1 UTC").arg(text.replace(QLatin1Char('T'), QLatin1Char(' ')));
+}
+
 QString withEnding(const QString& path, const char* ending) {
     if (path.isEmpty() || hasEnding(path.toStdString(), ending)) return path;
     return path + QString::fromLatin1(ending);
@@ -68,6 +74,10 @@ QString withEnding(const QString& path, const char* ending) {
 
 QString projectFilter() {
     return QObject::tr("Eyrie projects (*%1)").arg(QString::fromLatin1(kProjectEnding));
+}
+
+QString projectOrAnyFilter() {
+    return QObject::tr("Eyrie projects (*%1);;All files (*)").arg(QString::fromLatin1(kProjectEnding));
 }
 
 QString leftText(double seconds) {

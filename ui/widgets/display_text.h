@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QString>
+#include <cstdint>
 #include <string>
 
 #include "core/labels/track_class.h"
@@ -35,11 +36,16 @@ QString shownName(TrackClass track_class);
 /// time.
 QString localTimeText(const std::string& utc);
 
+/// A moment, µs since 1970-01-01, to the millisecond: "2009-01-12 22:08:22.040 UTC".
+QString utcMomentText(std::int64_t utc_us);
+
 /// The path of a file as a person named it, with the ending (".ts") that it should have; an empty one stays empty.
 QString withEnding(const QString& path, const char* ending);
 
 /// How dialogs ask for projects: "Eyrie projects (*.eyrie)".
 QString projectFilter();
+/// The same where any other file may be chosen, too.
+QString projectOrAnyFilter();
 
 /// How much longer something takes, rounded up to seconds: "0:05 left".
 QString leftText(double seconds);

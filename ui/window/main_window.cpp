@@ -103,6 +103,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     events_ = new EventsDock({session_, *canvas_, *timeline_, *docks_, *actions_, *messages_});
     review_->setDoingsWanted([this] { events_->review().setWanted(); });
     events_->correcting().setList(review_->tracks());
+    docks_->watch(DockId::tracks, &events_->correcting(), [this](bool) { events_->correcting().enableActions(); });
     connect(events_, &EventsDock::eventsShown, this, [this] {
         const auto& found = events_->review().found();
         review_->tracks().setDoings(found ? found->doings : nullptr);

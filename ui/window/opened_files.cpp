@@ -109,9 +109,8 @@ void OpenedFiles::openFolder() {
 }
 
 void OpenedFiles::openProject() {
-    const QString path = QFileDialog::getOpenFileName(&parts_.window, tr("Open project"),
-                                                      parts_.settings.value(kFolder, QString()).toString(),
-                                                      projectFilter() + tr(";;All files (*)"));
+    const QString path = QFileDialog::getOpenFileName(
+        &parts_.window, tr("Open project"), parts_.settings.value(kFolder, QString()).toString(), projectOrAnyFilter());
     if (!path.isEmpty()) open(path);
 }
 

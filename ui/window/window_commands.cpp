@@ -130,8 +130,9 @@ void WindowCommands::showFullScreen(bool on) {
 
 void WindowCommands::followFullScreen() {
     const bool on = parts_.window.isFullScreen();
-    parts_.workspaces.showPictureAlone(on);
+    // First: whoever sees docks go asks it why.
     parts_.actions.full_screen->setChecked(on);
+    parts_.workspaces.showPictureAlone(on);
 }
 
 bool WindowCommands::eventFilter(QObject* watched, QEvent* event) {

@@ -164,6 +164,10 @@ class TimelineViewTest : public QObject {
         view.setClock([](std::int64_t video_us) { return std::optional(1'231'798'102'000'000 + video_us); });
         QCOMPARE(view.rulerText(1'000'000), QStringLiteral("22:08:23"));
         QCOMPARE(view.rulerText(1'500'000, 1), QStringLiteral("22:08:23.5"));
+        // A tick lies at a round time but for what the clock is rounded by.
+        QCOMPARE(view.rulerText(999'999), QStringLiteral("22:08:23"));
+        QCOMPARE(view.rulerText(1'499'998, 1), QStringLiteral("22:08:23.5"));
+        QCOMPARE(view.rulerText(57'999'999, 2), QStringLiteral("22:09:20.00"));
         QVERIFY(view.grab().toImage() != before);
         view.setClock([](std::int64_t) { return std::optional<std::int64_t>(); });
         QCOMPARE(view.rulerText(1'000'000), QString());

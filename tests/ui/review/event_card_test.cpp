@@ -29,6 +29,35 @@ class EventCardTest : public QObject {
         QVERIFY(card.judged().isHidden());
         QVERIFY(!card.note().isHidden());
     }
+
+    void whatIsBeingWrittenStaysWhileNothingElseIsStored() {
+        EventCard card;
+        CardSubject subject;
+        subject.title = QStringLiteral("Stops · 0:12.4");
+        subject.event = 3;
+        subject.note = QStringLiteral("van");
+        subject.tags = QStringLiteral("gate 3");
+        card.show(subject);
+        card.note().setText(QStringLiteral("van, wh"));
+        card.tags().setText(QStringLiteral("gate 3, lo"));
+        subject.title = QStringLiteral("Stops · 08:00:12");  // the clock became known
+        card.show(subject);
+        QCOMPARE(card.note().text(), QStringLiteral("van, wh"));
+        QCOMPARE(card.tags().text(), QStringLiteral("gate 3, lo"));
+
+        subject.tags = QStringLiteral("gate 4");
+        card.show(subject);
+        QCOMPARE(card.note().text(), QStringLiteral("van, wh"));
+        QCOMPARE(card.tags().text(), QStringLiteral("gate 4"));
+
+        subject.event = 4;
+        card.show(subject);
+        QCOMPARE(card.note().text(), QStringLiteral("van"));
+        card.note().setText(QStringLiteral("of this one"));
+        card.show(std::nullopt);
+        card.show(subject);
+        QCOMPARE(card.note().text(), QStringLiteral("van"));
+    }
 };
 
 }  // namespace eyrie::ui::event_card_test

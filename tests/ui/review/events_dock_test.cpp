@@ -1,16 +1,21 @@
 #include "review/events/events_dock.h"
 
+#include <QLabel>
 #include <QMainWindow>
 #include <QTableView>
 #include <QTest>
+#include <QTreeWidget>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <cstdlib>
 
 #include "canvas/timeline/timeline_view.h"
 #include "canvas/video_view.h"
 #include "review/events/event_review.h"
+#include "review/events/event_text.h"
 #include "review/events/event_thresholds.h"
 #include "review/events/events_panel.h"
+#include "review/events/left_list.h"
 #include "review/inspector_panel.h"
 #include "ui/session/session_support.h"
 #include "ui/support/ui_test.h"
@@ -243,8 +248,26 @@ class EventsDockTest : public QObject {
         limits.setValue(QStringLiteral("events.over"), QStringLiteral("400"));
         QVERIFY(QTest::qWaitFor([&] { return review.leftCount() == places.size(); }, kPatience_ms));
         QCOMPARE(review.judgedCount(), std::size_t(0));
+        // The count leads to a list of them, and that to their frames.
+        const auto labels = window->events().panel().findChildren<QLabel*>();
+        const auto header = std::find_if(labels.begin(), labels.end(), [](const QLabel* label) {
+            return label->text().contains(QStringLiteral("without an event</a>"));
+        });
+        QVERIFY(header != labels.end());
+        emit(*header)->linkActivated(QStringLiteral("left"));
+        auto* left = window->events().panel().findChild<LeftList*>();
+        QVERIFY(left != nullptr && left->isVisible());
+        QCOMPARE(left->list().topLevelItemCount(), static_cast<int>(places.size()));
+        QTreeWidgetItem* last = left->list().topLevelItem(static_cast<int>(places.size()) - 1);
+        QCOMPARE(last->text(1), listedKindText(fast));
+        QCOMPARE(last->text(2), judgementText(Judgement::relevant));
+        QCOMPARE(last->text(5), QStringLiteral("no such event near"));
+        const FrameIndex frame = last->data(0, Qt::UserRole).toInt();
+        emit left->list().itemActivated(last, 0);
+        QVERIFY(test::shows(window->session(), frame));
         limits.setValue(QStringLiteral("events.over"), QStringLiteral("5"));
         QVERIFY(QTest::qWaitFor([&] { return review.judgedCount() == places.size(); }, kPatience_ms));
+        QCOMPARE(left->list().topLevelItemCount(), 0);
     }
 
     void marksOnTheTimelineLeadToTheirEvents() {

@@ -261,6 +261,29 @@ class EvaluationTest : public QObject {
         QVERIFY(!window->overlays().style().detail.labels);
     }
 
+    void fullScreenLeavesErrorsAloneAndOverlaysHidden() {
+        const auto window = evaluatingWindow();
+        QVERIFY(window);
+        const WindowActions& actions = window->actions();
+        const auto errorsAlone = [&] {
+            return window->overlays().isVisible(VerdictLayer::kKind) &&
+                   !window->overlays().isVisible(TrackLayer::kKind);
+        };
+        QVERIFY(errorsAlone());
+        actions.full_screen->trigger();
+        QVERIFY(window->isFullScreen());
+        QVERIFY2(errorsAlone(), "no dock is seen, but nobody left them");
+        actions.hide_overlays->trigger();
+        QVERIFY(!window->overlays().isDrawn(VerdictLayer::kKind));
+        actions.full_screen->trigger();
+        QVERIFY(!window->isFullScreen());
+        QVERIFY2(actions.hide_overlays->isChecked(), "what a key has hidden stays so");
+        actions.hide_overlays->trigger();
+        QVERIFY(errorsAlone());
+        for (const DockId id : {DockId::evaluation, DockId::errors}) window->docks().dock(id)->hide();
+        QVERIFY(window->overlays().isVisible(TrackLayer::kKind));
+    }
+
     void anErrorIsAskedWhy() {
         const auto window = evaluatingWindow();
         QVERIFY(window);

@@ -1,3 +1,5 @@
+#include <QApplication>
+#include <QKeyEvent>
 #include <QSignalSpy>
 #include <QTest>
 
@@ -71,6 +73,25 @@ class ChipGridTest : public QObject {
         QTest::keyClick(&grid, Qt::Key_0);
         QVERIFY(grid.fitted());
         QTest::keyClick(&grid, Qt::Key_Plus);
+        QVERIFY(!grid.fitted());
+    }
+
+    void keysWithAModifierBelongToTheWindow() {
+        ChipGrid grid;
+        grid.resize(300, 300);
+        grid.setCards(cardsOf(3));
+        grid.show();
+        grid.zoomBy(2);
+        const auto wants = [&](Qt::Key key, Qt::KeyboardModifiers modifiers) {
+            QKeyEvent asked(QEvent::ShortcutOverride, key, modifiers);
+            asked.ignore();
+            QApplication::sendEvent(&grid, &asked);
+            return asked.isAccepted();
+        };
+        QVERIFY(wants(Qt::Key_0, {}) && wants(Qt::Key_Plus, Qt::ShiftModifier) && wants(Qt::Key_0, Qt::KeypadModifier));
+        QVERIFY2(!wants(Qt::Key_0, Qt::AltModifier), "it hides the overlays");
+        QVERIFY(!wants(Qt::Key_Plus, Qt::ControlModifier));
+        QTest::keyClick(&grid, Qt::Key_0, Qt::AltModifier);
         QVERIFY(!grid.fitted());
     }
 

@@ -306,11 +306,19 @@ class CorrectingWindowTest : public QObject {
             const QAbstractItemModel* shown = list.table()->model();
             QCOMPARE(shown->rowCount(), static_cast<int>(all));
             const auto chooseFirstTwo = [&] {
+                window->session().selectTrack(std::nullopt);
                 window->session().selectTrack(shown->index(0, 0).data(id_role).toInt());
                 list.table()->selectionModel()->select(shown->index(1, 0),
                                                        QItemSelectionModel::Select | QItemSelectionModel::Rows);
                 return list.selectedIds();
             };
+            window->docks().raise(DockId::events);
+            QCOMPARE(chooseFirstTwo().size(), 2);
+            QTest::keyClick(&window->canvas(), Qt::Key_Backspace);
+            QVERIFY2(waitForTracks(*window, all - 1), "nobody sees the list: the selected track is meant alone");
+            QTest::keyClick(&window->canvas(), Qt::Key_Z);
+            QVERIFY(waitForTracks(*window, all));
+            window->docks().raise(DockId::tracks);
             const QList<int> chosen = chooseFirstTwo();
             QCOMPARE(chosen.size(), 2);
             two.assign(chosen.begin(), chosen.end());

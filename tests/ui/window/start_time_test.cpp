@@ -58,7 +58,7 @@ class StartTimeTest : public QObject {
             QVERIFY(window);
             StartTimeDialog* dialog = ask(*window);
             QVERIFY(dialog != nullptr);
-            QVERIFY(test::says(*dialog, QStringLiteral("Nobody knows")));
+            QVERIFY(test::says(*dialog, QStringLiteral("It is not known")));
             QVERIFY(!dialog->notKnown().isEnabled());
             dialog->field().setDateTime(kBegin);
             QVERIFY(test::press(*dialog, QStringLiteral("OK")));

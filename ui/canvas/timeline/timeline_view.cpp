@@ -27,6 +27,13 @@ constexpr double kMarkReach = 5;  ///< px beside a mark that count as on it
 constexpr int kHeight = 104;
 constexpr double kLabelGap = 80;  ///< px from one time on the ruler to the next, at least
 
+/// A moment (µs, not negative) to so many decimals of the seconds, 0 to 6.
+std::int64_t roundedToDecimals(std::int64_t time_us, int decimals) {
+    std::int64_t unit = 1'000'000;
+    for (int i = 0; i < decimals; ++i) unit /= 10;
+    return (time_us + unit / 2) / unit * unit;
+}
+
 }  // namespace
 
 struct TimelineView::Rows {
@@ -67,7 +74,7 @@ void TimelineView::setClock(std::function<std::optional<std::int64_t>(std::int64
 QString TimelineView::rulerText(std::int64_t video_us, int decimals) const {
     if (!utc_at_) return QString::fromStdString(timeText(video_us, decimals));
     const auto utc_us = utc_at_(video_us);
-    return utc_us ? QString::fromStdString(timeOfDayText(*utc_us, decimals)) : QString();
+    return utc_us ? QString::fromStdString(timeOfDayText(roundedToDecimals(*utc_us, decimals), decimals)) : QString();
 }
 
 void TimelineView::extendTimes(std::vector<std::int64_t> times_us) {

@@ -19,13 +19,7 @@ void BookmarksModel::setBookmarks(const std::map<int, Bookmark>& bookmarks) {
 
 void BookmarksModel::setClock(ClockOfFrames clock) {
     clock_ = std::move(clock);
-    emit headerDataChanged(Qt::Horizontal, time_column, time_column);
-    if (rowCount() > 0) emit dataChanged(index(0, time_column), index(rowCount() - 1, time_column));
-}
-
-QString BookmarksModel::timeOf(const Bookmark& bookmark) const {
-    const QString time = clock_.time(bookmark.frame);
-    return time.isEmpty() ? QString::fromStdString(videoClockText(bookmark.seconds)) : time;
+    tellClockChanged(*this, time_column, time_column);
 }
 
 QString BookmarksModel::tipOf(const Bookmark& bookmark) const {
@@ -47,7 +41,7 @@ QVariant BookmarksModel::data(const QModelIndex& index, int role) const {
                 case frame_column:
                     return QString::number(bookmark->frame);
                 case time_column:
-                    return timeOf(*bookmark);
+                    return clock_.timeOr(bookmark->frame, QString::fromStdString(videoClockText(bookmark->seconds)));
                 case note_column:
                     return QString::fromStdString(bookmark->note);
                 case person_column:

@@ -32,7 +32,6 @@ class BookmarksModel : public RecordModel<Bookmark> {
     void noteEdited(int id, const QString& note);
 
  private:
-    QString timeOf(const Bookmark& bookmark) const;
     QString tipOf(const Bookmark& bookmark) const;
 
     ClockOfFrames clock_;

@@ -3,6 +3,7 @@
 #include "review/events/event_text.h"
 #include "review/events/events_dock.h"
 #include "review/events/events_model.h"
+#include "review/tracks_model.h"
 #include "review/watch/watched_ground.h"
 #include "widgets/layout/scrolled.h"
 #include "workspace/dock_registry.h"
@@ -84,7 +85,7 @@ void CardDock::showSelection() {
     CardSubject subject;
     subject.title = summary != nullptr && summary->doubtful
                         ? tr("Track %1 · left out of the result for its score; its path is not worked out").arg(*track)
-                    : summary != nullptr && summary->corrected == CorrectionKind::reject
+                    : summary != nullptr && isRejected(*summary)
                         ? tr("Track %1 · rejected; its path is not worked out").arg(*track)
                         : tr("Track %1").arg(*track);
     subject.track = *track;

@@ -89,16 +89,22 @@ EventCard::~EventCard() = default;
 void EventCard::show(const std::optional<CardSubject>& subject) {
     if (subject == subject_) return;
     const bool same = subject && subject_ && subject->track == subject_->track && subject->frame == subject_->frame;
+    const bool same_event = subject && subject_ && subject->event == subject_->event;
+    // What stands there may be half written: it stays while nothing else is stored.
+    const bool same_note = same_event && subject->note == subject_->note;
+    const bool same_tags = same_event && subject->tags == subject_->tags;
     subject_ = subject;
     stack_->setCurrentIndex(subject ? 1 : 0);
     if (!same) setStory(nullptr, {});
     if (!subject) return;
     title_->setText(subject->title);
     note_->setVisible(subject->event != 0);
-    note_->setText(subject->note);
-    note_->setCursorPosition(0);
+    if (!same_note) {
+        note_->setText(subject->note);
+        note_->setCursorPosition(0);
+    }
     tags_->setVisible(subject->event != 0);
-    tags_->setText(subject->tags);
+    if (!same_tags) tags_->setText(subject->tags);
     judged_->setVisible(!subject->judged.isEmpty());
     judged_->setText(subject->judged);
 }

@@ -36,6 +36,7 @@ bool isRejectable(const TrackSummary& track) {
 /// What would come of corrections.
 struct TrackCorrecting::Tried {
     std::vector<TrackCorrection> made;                  ///< those of which something comes
+    std::vector<std::size_t> made_at;                   ///< which of those asked for they are
     TrackCorrection refused;                            ///< else the last of which nothing does,
     CorrectionState state = CorrectionState::no_track;  ///< and why
     TrackId last_id = 0;                                ///< the highest of the run
@@ -141,14 +142,19 @@ void TrackCorrecting::enableActions() {
 std::vector<TrackId> TrackCorrecting::chosen() const {
     const auto selected = parts_.session.selectedTrack();
     if (!selected) return {};
-    const QList<int> listed = list_ ? list_->selectedIds() : QList<int>();
+    const QList<int> listed = isListSeen() ? list_->selectedIds() : QList<int>();
     // A track whose row is filtered away is meant alone.
     if (!listed.contains(*selected)) return {*selected};
     return {listed.begin(), listed.end()};
 }
 
+bool TrackCorrecting::isListSeen() const {
+    // A table behind another tab is not hidden: it lies outside the window.
+    return list_ && !list_->table()->viewport()->visibleRegion().isEmpty();
+}
+
 bool TrackCorrecting::areSeveralChosen() const {
-    if (!list_) return false;
+    if (!isListSeen()) return false;
     int rows = 0;
     for (const QItemSelectionRange& range : list_->table()->selectionModel()->selection()) rows += range.height();
     return rows > 1;
@@ -179,6 +185,7 @@ void TrackCorrecting::attempt(const QString& step, const Make& make, const Kept&
         for (TrackCorrection& correction : wanted) {
             const CorrectionState state = made->states.at(correction.id);
             if (state == CorrectionState::applied) {
+                tried->made_at.push_back(static_cast<std::size_t>(&correction - wanted.data()));
                 tried->made.push_back(std::move(correction));
                 continue;
             }
@@ -306,11 +313,17 @@ void TrackCorrecting::reject() {
         return rejections;
     };
     const auto kept = [this, tracks](const Tried& tried) {
-        tell(
-            tracks.size() == 1
-                ? tr("Track %1 is rejected: only the list of tracks has it still. Z takes it back.").arg(tracks.front())
-                : tr("%1 tracks are rejected: only the list of tracks has them still. Z takes them back.")
-                      .arg(tried.made.size()));
+        const std::size_t made = tried.made.size();
+        QString text =
+            made == 1
+                ? tr("Track %1 is rejected: it remains only in the list of tracks. Z takes it back.")
+                      .arg(tracks[tried.made_at.front()])
+                : tr("%1 tracks are rejected: they remain only in the list of tracks. Z takes them back.").arg(made);
+        if (const std::size_t refused = tracks.size() - made; refused > 0)
+            text += QLatin1Char(' ') + (refused == 1 ? tr("1 other could not be rejected: %1.")
+                                                     : tr("%1 others could not be rejected: %2.").arg(refused))
+                                           .arg(QString::fromUtf8(nameOf(tried.state)));
+        tell(text);
     };
     attempt(tracks.size() == 1 ? tr("Reject track %1").arg(tracks.front()) : tr("Reject %1 tracks").arg(tracks.size()),
             make, kept, tracks.size());

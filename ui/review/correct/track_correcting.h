@@ -39,7 +39,8 @@ class TrackCorrecting : public QObject {
     explicit TrackCorrecting(const CorrectingParts& parts, QObject* parent = nullptr);
     ~TrackCorrecting() override;
 
-    /// Where several tracks are selected at once, to be rejected or taken back together.
+    /// Where several tracks are selected at once, to be rejected or taken back together. enableActions() is to be
+    /// called when it comes into view or goes.
     void setList(const TracksPanel& list);
     /// Whether keys are wanted: labelling has others.
     void setActive(bool active);
@@ -66,8 +67,9 @@ class TrackCorrecting : public QObject {
     void split();
     void reject();
     void removeLast();
-    /// The selected track, with it all that are selected in the list.
+    /// The selected track, with it all that are selected in the list where a person sees it.
     std::vector<TrackId> chosen() const;
+    bool isListSeen() const;
     bool areSeveralChosen() const;
     void attempt(const QString& step, const Make& make, const Kept& kept, std::size_t most = 1);
     void finish(const QString& step, const Tried& tried, const Kept& kept);

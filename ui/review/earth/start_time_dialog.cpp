@@ -8,7 +8,6 @@
 #include <QVBoxLayout>
 #include <utility>
 
-#include "core/utc_time.h"
 #include "widgets/display_text.h"
 #include "widgets/wiring.h"
 
@@ -18,11 +17,9 @@ namespace {
 
 QString knownText(const KnownStart& known) {
     if (known.origin.isEmpty())
-        return StartTimeDialog::tr("Nobody knows when the video was taken: times count from its beginning.");
-    if (!known.utc_us) return StartTimeDialog::tr("Clock times are told by %1.").arg(known.origin);
-    QString moment = QString::fromStdString(utcTextToMilliseconds(*known.utc_us)).remove(QLatin1Char('Z'));
-    moment.replace(QLatin1Char('T'), QLatin1Char(' '));
-    return StartTimeDialog::tr("Now: %1 UTC, by %2.").arg(moment, known.origin);
+        return StartTimeDialog::tr("It is not known when the video was taken; times count from its beginning.");
+    if (!known.utc_us) return StartTimeDialog::tr("Clock times come from %1.").arg(known.origin);
+    return StartTimeDialog::tr("Now: %1, by %2.").arg(utcMomentText(*known.utc_us), known.origin);
 }
 
 }  // namespace
@@ -44,11 +41,12 @@ StartTimeDialog::StartTimeDialog(const KnownStart& known,
                                      : QDateTime(QDateTime::currentDateTimeUtc().date(), QTime(0, 0), Qt::UTC));
     auto* form = new QFormLayout;
     form->addRow(tr("First frame, UTC:"), field_);
-    auto* note = new QLabel(tr("It is kept in the project and counts before what the video tells itself."), this);
+    auto* note =
+        new QLabel(tr("It is kept in the project and takes precedence over what the video itself says."), this);
     note->setWordWrap(true);
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, this);
     not_known_ = buttons->addButton(tr("Not known"), QDialogButtonBox::ResetRole);
-    not_known_->setToolTip(tr("Forget what was said here; what the video tells itself counts again"));
+    not_known_->setToolTip(tr("Forget the time entered here and use what the video says"));
     not_known_->setEnabled(known.given);
     auto* rows = new QVBoxLayout(this);
     rows->addWidget(told);

@@ -12,6 +12,7 @@
 #include "store/labels/annotation_store.h"
 #include "store/project/video_start.h"
 #include "store/review/control_points.h"
+#include "widgets/display_text.h"
 #include "workspace/session_reactions.h"
 
 namespace eyrie::ui {
@@ -126,10 +127,7 @@ ClockOfFrames VideoEarth::clock() const {
 
 QString VideoEarth::clockText(FrameIndex frame) const {
     const auto utc_us = momentOf(frame);
-    if (!utc_us) return {};
-    QString text = QString::fromStdString(utcTextToMilliseconds(*utc_us));
-    text.remove(QLatin1Char('Z'));
-    return tr("%1 UTC").arg(text.replace(QLatin1Char('T'), QLatin1Char(' ')));
+    return utc_us ? utcMomentText(*utc_us) : QString();
 }
 
 const GroundView* VideoEarth::viewOf(FrameIndex frame) const {
@@ -155,6 +153,10 @@ void VideoEarth::layOnEarth() {
                        identity = session_.media()->identity](const BackgroundTask& task) mutable {
         const SaidOfVideo said = saidOf(project, identity);
         footage.control = said.control;
+        // At once: places take a while, and may not come at all.
+        task.tell([this, start_us = said.start_us] {
+            if (std::exchange(given_start_us_, start_us) != start_us) setClock();
+        });
         if (run) {
             footage.first_frame = run->footage.first_frame;
             footage.last_frame = std::min(footage.last_frame, run->footage.last_frame);
@@ -164,10 +166,9 @@ void VideoEarth::layOnEarth() {
         // Without registration there is nothing to steady each frame's own statement with.
         const FoundMetadata used = run && found ? *found : FoundMetadata();
         auto world = std::make_shared<const VideoWorld>(videoWorldOf(used, std::move(footage)));
-        task.tell([this, world, said] {
+        task.tell([this, world, control = said.control] {
             world_ = world;
-            control_ = said.control;
-            if (std::exchange(given_start_us_, said.start_us) != said.start_us) setClock();
+            control_ = control;
             emit changed();
         });
     };

@@ -230,6 +230,16 @@ std::size_t EventReview::judgedCount() const {
     return judged;
 }
 
+std::vector<std::pair<const Verdict*, CarryFault>> EventReview::left() const {
+    std::vector<std::pair<const Verdict*, CarryFault>> left;
+    if (!found_ || !store_) return left;
+    for (const LeftVerdict& each : found_->carried.left) {
+        const auto verdict = store_->review().verdicts.find(each.verdict);
+        if (verdict != store_->review().verdicts.end()) left.emplace_back(&verdict->second, each.fault);
+    }
+    return left;
+}
+
 bool EventReview::mayWrite() {
     if (!store_) return false;
     if (store_->readOnly()) answers_.tell_notice(QString::fromStdString(store_->readOnlyReason()));

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "events/review/judging.h"
@@ -69,6 +70,8 @@ class EventReview : public QObject {
     std::size_t judgedCount() const;
     /// Verdicts on this video for which this run has no event.
     std::size_t leftCount() const { return found_ ? found_->carried.left.size() : 0; }
+    /// These, and why; to be used before anything else is judged.
+    std::vector<std::pair<const Verdict*, CarryFault>> left() const;
 
     /// The zones that are watched; none until the verdicts were read.
     const std::map<int, StoredZone>& zones() const;

@@ -17,6 +17,13 @@ QString eventWord(const char* text) {
     return QCoreApplication::translate("Events", text);
 }
 
+QString kindText(int listed_kind, const std::string& zone, CrossingSense sense) {
+    QString text = listedKindText(listed_kind);
+    if (!zone.empty()) text += QLatin1Char(' ') + QString::fromStdString(zone);
+    if (sense != CrossingSense::none) text += QLatin1Char(' ') + QString::fromLatin1(nameOf(sense));
+    return text;
+}
+
 QPixmap judgementPixmap(Judgement judgement, bool dark) {
     constexpr int kSize = 14;
     constexpr int kScale = 2;
@@ -57,12 +64,13 @@ QString listedKindText(int listed_kind) {
 }
 
 QString eventKindText(const FoundEvents& found, std::size_t position) {
-    QString text = listedKindText(listedKindAt(found, position));
     const Event* event = found.eventAt(position);
-    if (event != nullptr && !event->zone.empty()) text += QLatin1Char(' ') + QString::fromStdString(event->zone);
-    if (event != nullptr && event->sense != CrossingSense::none)
-        text += QLatin1Char(' ') + QString::fromLatin1(nameOf(event->sense));
-    return text;
+    return event != nullptr ? kindText(listedKindAt(found, position), event->zone, event->sense)
+                            : listedKindText(listedKindAt(found, position));
+}
+
+QString eventKindText(const ReviewSubject& subject) {
+    return kindText(subject.kind ? static_cast<int>(*subject.kind) : kEventKinds, subject.zone, subject.sense);
 }
 
 QString eventNumberText(const FoundEvents& found, std::size_t position) {

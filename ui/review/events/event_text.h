@@ -14,6 +14,8 @@ namespace eyrie::ui {
 QString listedKindText(int listed_kind);
 /// "Enters yard", "Crosses gate to the left".
 QString eventKindText(const FoundEvents& found, std::size_t position);
+/// The same of what a verdict is on.
+QString eventKindText(const ReviewSubject& subject);
 /// "12", the number that eyrie-cli has it under; empty for a stretch that could not be searched.
 QString eventNumberText(const FoundEvents& found, std::size_t position);
 /// When the event begins: "1:02.4".

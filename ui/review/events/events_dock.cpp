@@ -12,6 +12,7 @@
 #include "review/events/event_text.h"
 #include "review/events/event_thresholds.h"
 #include "review/events/events_panel.h"
+#include "review/events/left_list.h"
 #include "review/run_text.h"
 #include "review/zones/zone_review.h"
 #include "review/zones/zones_panel.h"
@@ -103,7 +104,9 @@ EventReviewAnswers EventsDock::reviewAnswers() {
 }
 
 void EventsDock::wireLists() {
-    panel_->setCommands({.show = [this](int id) { show(id); }, .listing_changed = [this] { marks_due_.start(); }});
+    panel_->setCommands({.show = [this](int id) { show(id); },
+                         .listing_changed = [this] { marks_due_.start(); },
+                         .show_left = [this] { showLeft(); }});
     connect(&panel_->thresholds(), &EventThresholds::edited, this,
             [this] { review_->setOptions(panel_->thresholds().options()); });
     connect(model_, &EventsModel::noteEdited, this, &EventsDock::writeNote);
@@ -142,6 +145,7 @@ void EventsDock::bindCommands() {
 void EventsDock::setClock(const ClockOfFrames& clock) {
     model_->setClock(clock);
     bookmarks_->setClock(clock);
+    if (left_list_ != nullptr) showCounts();
 }
 
 void EventsDock::setActive(bool active) {
@@ -161,26 +165,30 @@ void EventsDock::showEvents() {
     listed_run_ = found ? found->run : nullptr;
     if (review_->state() != EventReview::State::failed) parts_.messages.dismissTopic(kEventsTopic);
     model_->setEvents(found, [this](std::size_t place) { return review_->verdictAt(place); });
-    panel_->showCounts(review_->leftCount(), leftCorrections());
+    showCounts();
     zones_->showZones();
     showMarks();
     enableActions();
     emit eventsShown();
 }
 
-QStringList EventsDock::leftCorrections() const {
-    QStringList left;
-    const auto& tracks = review_->tracks();
-    if (!tracks) return left;
-    for (const auto& [id, state] : tracks->corrections.states) {
-        const auto correction = review_->corrections().find(id);
-        if (!isLeft(state) || correction == review_->corrections().end()) continue;
-        left << tr("%1 at frame %2 by %3: %4")
-                    .arg(QString::fromUtf8(nameOf(correction->second.kind)))
-                    .arg(correction->second.frame)
-                    .arg(QString::fromStdString(correction->second.person), QString::fromUtf8(nameOf(state)));
-    }
-    return left;
+void EventsDock::showCounts() {
+    const std::vector<LeftRow> left = leftRows(*review_, model_->clock());
+    panel_->showCounts(review_->leftCount(), leftCorrections(left));
+    if (left_list_ != nullptr) left_list_->setRows(left);
+}
+
+void EventsDock::showLeft() {
+    if (left_list_ == nullptr)
+        left_list_ = new LeftList(
+            [this](FrameIndex frame) {
+                parts_.session.playback().pause();
+                parts_.session.goToFrame(frame);
+            },
+            panel_);
+    showCounts();
+    left_list_->show();
+    left_list_->raise();
 }
 
 void EventsDock::explainNothing() {
@@ -219,7 +227,7 @@ void EventsDock::showVerdicts(const std::vector<std::size_t>& positions) {
         model_->setEvents(review_->found(), [this](std::size_t place) { return review_->verdictAt(place); });
     else
         for (const std::size_t place : positions) model_->setVerdict(place, review_->verdictAt(place));
-    panel_->showCounts(review_->leftCount(), leftCorrections());
+    showCounts();
     marks_due_.start();
     enableActions();
 }

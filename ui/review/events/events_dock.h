@@ -2,7 +2,6 @@
 
 #include <QObject>
 #include <QPointF>
-#include <QStringList>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -26,6 +25,7 @@ class EventReview;
 struct EventReviewAnswers;
 class EventsModel;
 class EventsPanel;
+class LeftList;
 class MessageBar;
 class ProjectSession;
 class TimelineView;
@@ -84,8 +84,8 @@ class EventsDock : public QObject {
     void wireLists();
     void showEvents();
     void explainNothing();
-    /// Corrections of tracks that could not be carried over to the run shown.
-    QStringList leftCorrections() const;
+    void showCounts();
+    void showLeft();
     void showVerdicts(const std::vector<std::size_t>& positions);
     void showMarks();
     void enableActions();
@@ -107,6 +107,7 @@ class EventsDock : public QObject {
     ZoneReview* zones_ = nullptr;
     Bookmarks* bookmarks_ = nullptr;
     TrackCorrecting* correcting_ = nullptr;
+    LeftList* left_list_ = nullptr;  ///< once it was wanted
     DelayedCall marks_due_;
     std::shared_ptr<const StoredTracks> listed_run_;  ///< whose events have their ids
     bool active_ = true;

@@ -47,8 +47,7 @@ void EventsModel::setDark(bool dark) {
 
 void EventsModel::setClock(ClockOfFrames clock) {
     clock_ = std::move(clock);
-    emit headerDataChanged(Qt::Horizontal, time_column, time_column);
-    if (rowCount() > 0) emit dataChanged(index(0, time_column), index(rowCount() - 1, time_column));
+    tellClockChanged(*this, time_column, time_column);
 }
 
 void EventsModel::forgetIds() {
@@ -106,7 +105,7 @@ QString EventsModel::textOf(const EventEntry& entry, int column) const {
         case number_column:
             return (entry.starred ? QStringLiteral("★ ") : QString()) + eventNumberText(*found_, entry.position);
         case time_column:
-            return timeOf(entry);
+            return clock_.timeOr(found_->framesAt(entry.position).first, eventClockText(*found_, entry.position));
         case kind_column:
             return eventKindText(*found_, entry.position);
         case tracks_column:
@@ -120,11 +119,6 @@ QString EventsModel::textOf(const EventEntry& entry, int column) const {
         default:
             return {};
     }
-}
-
-QString EventsModel::timeOf(const EventEntry& entry) const {
-    const QString time = clock_.time(found_->framesAt(entry.position).first);
-    return time.isEmpty() ? eventClockText(*found_, entry.position) : time;
 }
 
 QVariant EventsModel::sortValueOf(const EventEntry& entry, int column) const {

@@ -49,6 +49,7 @@ class EventsModel : public RecordModel<EventEntry> {
     void setVerdict(std::size_t position, const Verdict* verdict);
     /// Times of the day instead of those of the video, where they are known. To be given again when they are others.
     void setClock(ClockOfFrames clock);
+    const ClockOfFrames& clock() const { return clock_; }
     /// Icons for a light or a dark ground.
     void setDark(bool dark);
     const std::shared_ptr<const FoundEvents>& found() const { return found_; }
@@ -72,7 +73,6 @@ class EventsModel : public RecordModel<EventEntry> {
 
     int idAt(const FoundEvents& found, std::size_t position, std::map<EventIdentity, int>& doubles);
     QString textOf(const EventEntry& entry, int column) const;
-    QString timeOf(const EventEntry& entry) const;
     QVariant sortValueOf(const EventEntry& entry, int column) const;
 
     std::shared_ptr<const FoundEvents> found_;

@@ -49,8 +49,10 @@ EventsPanel::EventsPanel(EventsModel* model, const WindowActions& actions, QWidg
     table()->setAccessibleName(tr("Events"));
     events_->setDark(isDark(palette()));
     header_->setContentsMargins(4, 2, 4, 0);
-    header_->setTextFormat(Qt::PlainText);
+    header_->setTextFormat(Qt::RichText);
     header_->setWordWrap(true);
+    whenAny(
+        header_, this, [this] { commands_.show_left(); }, &QLabel::linkActivated);
     auto* rows = static_cast<QVBoxLayout*>(layout());
     rows->insertWidget(0, header_);
     rows->setStretch(2, 2);
@@ -192,7 +194,7 @@ void EventsPanel::showSeen(std::optional<double> share) {
     showHeader();
 }
 
-QString EventsPanel::headerText() const {
+QString EventsPanel::countedText() const {
     const int all = events_->rowCount();
     int judged = 0;
     int listed = 0;
@@ -205,16 +207,34 @@ QString EventsPanel::headerText() const {
     QString text = tr("%1 of %2 judged").arg(judged).arg(all);
     if (seen_) text += tr(" · %1 % of the time seen").arg(static_cast<int>(100 * *seen_));
     if (listed < all) text += tr(" · %1 of %2 shown").arg(listed).arg(all);
-    if (left_ > 0)
-        text += left_ == 1 ? tr(" · 1 verdict without an event") : tr(" · %1 verdicts without an event").arg(left_);
-    if (!left_corrections_.isEmpty())
-        text += left_corrections_.size() == 1 ? tr(" · 1 correction not carried over")
-                                              : tr(" · %1 corrections not carried over").arg(left_corrections_.size());
     return text;
 }
 
+QString EventsPanel::leftText() const {
+    QStringList texts;
+    if (left_ > 0)
+        texts << (left_ == 1 ? tr("1 verdict without an event") : tr("%1 verdicts without an event").arg(left_));
+    if (!left_corrections_.isEmpty())
+        texts << (left_corrections_.size() == 1 ? tr("1 correction not carried over")
+                                                : tr("%1 corrections not carried over").arg(left_corrections_.size()));
+    return texts.join(QStringLiteral(" · "));
+}
+
+QString EventsPanel::headerText() const {
+    QStringList texts{countedText(), leftText()};
+    texts.removeAll(QString());
+    return texts.join(QStringLiteral(" · "));
+}
+
 void EventsPanel::showHeader() {
-    header_->setText(headerText());
+    QString text = headerText().toHtmlEscaped();
+    const QString left = leftText().toHtmlEscaped();
+    if (!left.isEmpty())
+        text = text.chopped(left.size()) + QStringLiteral("<a href=\"left\">") + left + QStringLiteral("</a>");
+    header_->setText(text);
+    // Only a link is worth the focus.
+    header_->setTextInteractionFlags(left.isEmpty() ? Qt::TextInteractionFlags(Qt::NoTextInteraction)
+                                                    : Qt::LinksAccessibleByMouse | Qt::LinksAccessibleByKeyboard);
     QStringList tips;
     if (seen_)
         tips << tr(
@@ -223,6 +243,7 @@ void EventsPanel::showHeader() {
         tips << tr("Corrections of tracks that do not fit this run are kept: %1.")
                     .arg(left_corrections_.join(QStringLiteral("; ")));
     if (left_ > 0) tips << tr("Verdicts on this video that match no event of this run, with these limits, are kept.");
+    if (!left.isEmpty()) tips << tr("A click lists them.");
     header_->setToolTip(tips.join(QLatin1Char('\n')));
 }
 

@@ -25,6 +25,8 @@ struct EventsPanelCommands {
     std::function<void(int id)> show = [](int) {};
     /// Other events are listed than before.
     std::function<void()> listing_changed = [] {};
+    /// A person wants to see what could not be carried over.
+    std::function<void()> show_left = [] {};
 };
 
 /// The queue of events: how many are judged and shown, the list, the keys that judge as buttons, and the thresholds.
@@ -51,7 +53,7 @@ class EventsPanel : public TablePanel {
     void showCounts(std::size_t left, const QStringList& corrections = {});
     /// The share of the run's frames that was watched, 0 … 1; nothing: not known.
     void showSeen(std::optional<double> share);
-    /// "214 of 380 judged", "61 % of the time seen" and "38 of 380 shown".
+    /// "214 of 380 judged", "61 % of the time seen", "38 of 380 shown" and what could not be carried over.
     QString headerText() const;
     /// Whether an event is listed by kind and verdict; words in the filter line are not asked.
     bool isListed(const EventEntry& entry) const;
@@ -85,6 +87,8 @@ class EventsPanel : public TablePanel {
     void buildButtons();
     void filterEvents();
     void showHeader();
+    QString countedText() const;
+    QString leftText() const;
     /// Row in the order shown, −1 for none.
     int shownRowOf(int id) const;
     const EventEntry* shownAt(int row) const;

@@ -173,9 +173,8 @@ void MosaicPanel::setClock(ClockOfFrames clock) {
 }
 
 QString MosaicPanel::timeOf(FrameIndex frame) const {
-    const QString time = clock_.time(frame);
-    if (!time.isEmpty()) return time;
-    return QString::fromStdString(videoClockText(maker_.mosaic()->ground->run->secondsOf(frame)));
+    const double seconds = maker_.mosaic()->ground->run->secondsOf(frame);
+    return clock_.timeOr(frame, QString::fromStdString(videoClockText(seconds)));
 }
 
 void MosaicPanel::askAbout(QPointF on_sheet) {

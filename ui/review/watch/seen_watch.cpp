@@ -83,7 +83,10 @@ void SeenWatch::flush() {
             });
         },
         // A project that cannot be written can be watched all the same; nobody is troubled.
-        [this](const QString&) { show_watched_(std::nullopt); });
+        [this](const QString&) {
+            told_ = false;  // it is asked for again
+            show_watched_(std::nullopt);
+        });
 }
 
 }  // namespace eyrie::ui

@@ -155,8 +155,8 @@ QWidget* TrainingDialog::buildSettings() {
     layout->addLayout(form);
     bindCommands(this, {{add,
                          [this] {
-                             for (const QString& file : QFileDialog::getOpenFileNames(
-                                      this, tr("Add projects"), {}, projectFilter() + tr(";;All files (*)")))
+                             for (const QString& file :
+                                  QFileDialog::getOpenFileNames(this, tr("Add projects"), {}, projectOrAnyFilter()))
                                  addProject(file);
                          }},
                         {remove,

@@ -82,8 +82,8 @@ EvaluationDocks::EvaluationDocks(ProjectSession& session, EvaluationSession& eva
     docks_.add(DockId::errors, tr("Errors"), errors_);
     const auto watch = [this](DockId id, bool& looked_at) {
         docks_.watch(id, this, [this, &looked_at](bool visible) {
-            looked_at = visible;
-            updateWanted();
+            // Docks that come back tell so several times.
+            if (std::exchange(looked_at, visible) != visible) updateWanted();
         });
     };
     watch(DockId::evaluation, evaluation_looked_at_);
@@ -121,7 +121,8 @@ void EvaluationDocks::showErrorsAlone() {
     if (labelling_ != nullptr && labelling_->active()) return;
     const bool alone = (evaluation_looked_at_ || errors_looked_at_) && evaluation_->evaluation() != nullptr;
     if (!alone) {
-        giveOverlaysBack();
+        // In full screen no dock is seen; they come back, and what was shown with them is to be there.
+        if (!actions_.full_screen->isChecked()) giveOverlaysBack();
     } else if (!other_overlays_) {
         other_overlays_ = overlays_.profile();
         overlays_.setProfile({{VerdictLayer::kKind}, other_overlays_->detail});
