@@ -130,9 +130,10 @@ void WindowCommands::showFullScreen(bool on) {
 
 void WindowCommands::followFullScreen() {
     const bool on = parts_.window.isFullScreen();
-    // First: whoever sees docks go asks it why.
-    parts_.actions.full_screen->setChecked(on);
+    // While docks go and come back, whoever sees it asks the action why.
+    parts_.actions.full_screen->setChecked(true);
     parts_.workspaces.showPictureAlone(on);
+    parts_.actions.full_screen->setChecked(on);
 }
 
 bool WindowCommands::eventFilter(QObject* watched, QEvent* event) {

@@ -161,8 +161,10 @@ TEST_F(ReviewStoreTest, TracksAreRejectedInAProjectThatKnewNoRejections) {
         store.apply(rejecting);
     }
     tamper("UPDATE correction SET person = 'Cy' WHERE kind = 'reject' AND id IN (3, 7)");
-    for (const HealthItem& item : checkProject(path_).items)
-        if (item.subject == "values") EXPECT_EQ(item.health, Health::good) << item.words;
+    for (const HealthItem& item : checkProject(path_).items) {
+        if (item.subject != "values") continue;
+        EXPECT_EQ(item.health, Health::good) << item.words;
+    }
     const auto read = readReview(project_, 1).corrections;
     ASSERT_EQ(read.size(), 4U);
     EXPECT_EQ(read.at(1), test::sampleCorrection(1));

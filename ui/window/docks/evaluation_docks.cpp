@@ -88,6 +88,7 @@ EvaluationDocks::EvaluationDocks(ProjectSession& session, EvaluationSession& eva
     };
     watch(DockId::evaluation, evaluation_looked_at_);
     watch(DockId::errors, errors_looked_at_);
+    whenAny(actions_.full_screen, this, &EvaluationDocks::showErrorsAlone, &QAction::toggled);
     bindCommands(this, {
                            {actions_.next_error, [this] { step(1); }},
                            {actions_.previous_error, [this] { step(-1); }},
@@ -122,7 +123,7 @@ void EvaluationDocks::showErrorsAlone() {
     const bool alone = (evaluation_looked_at_ || errors_looked_at_) && evaluation_->evaluation() != nullptr;
     if (!alone) {
         // In full screen no dock is seen; they come back, and what was shown with them is to be there.
-        if (!actions_.full_screen->isChecked()) giveOverlaysBack();
+        if (!actions_.full_screen->isChecked() && !window_.isFullScreen()) giveOverlaysBack();
     } else if (!other_overlays_) {
         other_overlays_ = overlays_.profile();
         overlays_.setProfile({{VerdictLayer::kKind}, other_overlays_->detail});
