@@ -39,6 +39,7 @@ ExportDialog::ExportDialog(ExportSource source, QWidget* parent)
     for (const ExportOffer& each : source_.offers) format_->addItem(each.title, each.name);
     holds_->setWordWrap(true);
     text_->setReadOnly(true);
+    text_->setPlaceholderText(tr("What was written, and what the format cannot hold, is listed here."));
     text_->setMinimumSize(kReportSize);
     auto* choose = new QPushButton(tr("Choose…"));
     auto* place = new QHBoxLayout;

@@ -37,6 +37,7 @@ CardDock::CardDock(const CardParts& parts)
     whenAny(&parts_.ground, this, &CardDock::askForStory, &WatchedGround::changed);
     followSession(parts_.session, this,
                   {{SessionChange::selection, [this] { showSelection(); }},
+                   {SessionChange::run_data, [this] { refreshTrack(); }},
                    {SessionChange::picture, [this] { card_->setFrame(parts_.session.shownFrame()); }}});
 }
 
@@ -77,19 +78,28 @@ void CardDock::showSelection() {
     const auto track = parts_.session.selectedTrack();
     // An event that was just shown selects its track, or none.
     if (card_->subject() && card_->subject()->track == track.value_or(0)) return;
-    if (!track) {
+    if (track)
+        showTrack(*track, parts_.session.currentFrame());
+    else
         show(std::nullopt);
-        return;
-    }
-    const TrackSummary* summary = parts_.session.trackSummary(*track);
+}
+
+void CardDock::refreshTrack() {
+    const auto& subject = card_->subject();
+    if (subject && subject->event == 0 && parts_.session.trackSummary(subject->track) != nullptr)
+        showTrack(subject->track, subject->frame);
+}
+
+void CardDock::showTrack(TrackId track, FrameIndex frame) {
+    const TrackSummary* summary = parts_.session.trackSummary(track);
     CardSubject subject;
     subject.title = summary != nullptr && summary->doubtful
-                        ? tr("Track %1 · left out of the result for its score; its path is not worked out").arg(*track)
+                        ? tr("Track %1 · left out of the result for its score; its path is not worked out").arg(track)
                     : summary != nullptr && isRejected(*summary)
-                        ? tr("Track %1 · rejected; its path is not worked out").arg(*track)
-                        : tr("Track %1").arg(*track);
-    subject.track = *track;
-    subject.frame = parts_.session.currentFrame();
+                        ? tr("Track %1 · rejected; its path is not worked out").arg(track)
+                        : tr("Track %1").arg(track);
+    subject.track = track;
+    subject.frame = frame;
     show(subject);
 }
 

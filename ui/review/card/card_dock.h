@@ -32,6 +32,9 @@ class CardDock : public QObject {
  private:
     void showEvent(int id);
     void showSelection();
+    /// A track alone, around a frame; again when what people made of it is known otherwise.
+    void showTrack(TrackId track, FrameIndex frame);
+    void refreshTrack();
     void refreshEvent();
     void show(const std::optional<CardSubject>& subject);
     void askForStory();
