@@ -231,16 +231,18 @@ TEST_F(ReviewReport, TheGroundShowsWhereTheEventsWereAndTheWaysThere) {
     ASSERT_TRUE(report.pictures.contains("ground-1"));
     const std::string& bytes = report.pictures.at("ground-1").bytes;
     const cv::Mat ground = cv::imdecode(std::vector<char>(bytes.begin(), bytes.end()), cv::IMREAD_COLOR);
-    ASSERT_EQ(ground.size(), kSize);  // a camera that stands sees no more
-    const auto isGrey = [&](cv::Point at) {
-        const cv::Vec3b pixel = ground.at<cv::Vec3b>(at);
+    ASSERT_EQ(ground.size(), cv::Size(1200, 750));  // a camera that stands sees no more; enlarged
+    const double zoom = 1200.0 / kSize.width;
+    const auto isGrey = [&](cv::Point in_video, cv::Point away = {}) {
+        const cv::Point at(cvRound((in_video.x + 0.5) * zoom - 0.5), cvRound((in_video.y + 0.5) * zoom - 0.5));
+        const cv::Vec3b pixel = ground.at<cv::Vec3b>(at + away);
         return std::abs(pixel[0] - 120) + std::abs(pixel[1] - 120) + std::abs(pixel[2] - 120) < 60;
     };
     EXPECT_FALSE(isGrey({150, 200})) << "the way";
     EXPECT_TRUE(isGrey({150, 230}));
     EXPECT_TRUE(isGrey({500, 200})) << "where nobody went";
     // The car stops at x = 320: the ring around its place.
-    EXPECT_FALSE(isGrey({320, 209}));
+    EXPECT_FALSE(isGrey({320, 200}, {0, 9}));
     GreyVideo damaged(50);
     EXPECT_THAT(htmlOf(input, &damaged), HasSubstr("There is no picture of the ground: frame "));
 }

@@ -13,7 +13,9 @@ namespace {
 constexpr std::size_t kMostSheets = 6;
 constexpr int kWantedFrames = 150;
 constexpr std::int64_t kMostPixels = 6'000'000;
-constexpr int kWidest = 1800;  ///< px
+constexpr int kWidest = 1800;      ///< px
+constexpr int kLeastWidth = 1200;  ///< px
+constexpr int kRing_px = 9;
 constexpr double kWidth_mm = 170;
 constexpr int kGroundQuality = 85;
 constexpr int kGroundBits = 4;
@@ -28,8 +30,10 @@ const cv::Scalar kPlace(70, 90, 255);
 class SheetPainter {
  public:
     SheetPainter(const MosaicSheet& sheet, const GroundSheets& sheets) : sheet_(sheet), sheets_(sheets) {
-        zoom_ = std::min(1.0, static_cast<double>(kWidest) / sheet.picture.cols);
-        cv::resize(sheet.picture, picture_, {}, zoom_, zoom_, cv::INTER_AREA);
+        // Small ones are enlarged, so that rings and lines do not hide what they are about.
+        const double widest = static_cast<double>(kWidest) / sheet.picture.cols;
+        zoom_ = std::min(widest, std::max(1.0, static_cast<double>(kLeastWidth) / sheet.picture.cols));
+        cv::resize(sheet.picture, picture_, {}, zoom_, zoom_, zoom_ < 1 ? cv::INTER_AREA : cv::INTER_CUBIC);
         if (picture_.channels() == 1) cv::cvtColor(picture_, picture_, cv::COLOR_GRAY2BGR);
     }
 
@@ -44,18 +48,21 @@ class SheetPainter {
         cv::polylines(picture_, part, false, kEventWay, 3, cv::LINE_AA, kGroundBits);
     }
 
-    void place(const Event& event, std::size_t number) const {
-        const cv::Matx33d& map = sheets_.sheetFromImage(event.frame);
-        const cv::Vec3d at = map * cv::Vec3d(event.place.x, event.place.y, 1);
-        const cv::Point centre = fixed({at[0] / at[2], at[1] / at[2]});
-        for (const auto& [colour, width] : {std::pair(kEdge, 4), std::pair(kPlace, 2)})
-            cv::circle(picture_, centre, 9 << kGroundBits, colour, width, cv::LINE_AA, kGroundBits);
-        const std::string text = std::to_string(number);
-        cv::Point label(centre.x / (1 << kGroundBits) + 12, centre.y / (1 << kGroundBits) + 5);
-        label.x = std::clamp(label.x, 0, std::max(0, picture_.cols - 10 * static_cast<int>(text.size()) - 4));
-        label.y = std::clamp(label.y, 12, std::max(12, picture_.rows - 4));
-        for (const auto& [colour, width] : {std::pair(kEdge, 4), std::pair(kPlace, 1)})
-            cv::putText(picture_, text, label, cv::FONT_HERSHEY_SIMPLEX, 0.5, colour, width, cv::LINE_AA);
+    /// Rings at the places of events, and their numbers; those that lie on each other share one label.
+    void places(const std::vector<Event>& events, const std::vector<std::size_t>& indices) const {
+        std::vector<std::pair<cv::Point, std::string>> labels;
+        for (const std::size_t index : indices) {
+            const cv::Point at = ring(events[index]);
+            const auto near = std::find_if(labels.begin(), labels.end(), [at](const auto& label) {
+                return cv::norm(label.first - at) < kRing_px * (1 << kGroundBits);
+            });
+            const std::string number = std::to_string(index + 1);
+            if (near == labels.end())
+                labels.emplace_back(at, number);
+            else
+                near->second += ", " + number;
+        }
+        for (const auto& [at, text] : labels) write(at, text);
     }
 
     std::string jpeg() const {
@@ -65,6 +72,25 @@ class SheetPainter {
     }
 
  private:
+    cv::Point ring(const Event& event) const {
+        const cv::Vec3d at = sheets_.sheetFromImage(event.frame) * cv::Vec3d(event.place.x, event.place.y, 1);
+        const cv::Point centre = fixed({at[0] / at[2], at[1] / at[2]});
+        for (const auto& [colour, width] : {std::pair(kEdge, 4), std::pair(kPlace, 2)})
+            cv::circle(picture_, centre, kRing_px << kGroundBits, colour, width, cv::LINE_AA, kGroundBits);
+        return centre;
+    }
+
+    /// Right of a ring, within the picture.
+    void write(cv::Point ring, const std::string& text) const {
+        constexpr double kHeight = 0.5;
+        const cv::Size size = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, kHeight, 1, nullptr);
+        cv::Point at(ring.x / (1 << kGroundBits) + kRing_px + 3, ring.y / (1 << kGroundBits) + size.height / 2);
+        at.x = std::clamp(at.x, 0, std::max(0, picture_.cols - size.width - 2));
+        at.y = std::clamp(at.y, size.height + 2, std::max(size.height + 2, picture_.rows - 2));
+        for (const auto& [colour, width] : {std::pair(kEdge, 4), std::pair(kPlace, 1)})
+            cv::putText(picture_, text, at, cv::FONT_HERSHEY_SIMPLEX, kHeight, colour, width, cv::LINE_AA);
+    }
+
     cv::Point fixed(cv::Point2d on_sheet) const {
         const cv::Point2d p = (sheet_.pictureFromSheet(on_sheet) + cv::Point2d(0.5, 0.5)) * zoom_;
         return {cvRound((p.x - 0.5) * (1 << kGroundBits)), cvRound((p.y - 0.5) * (1 << kGroundBits))};
@@ -122,7 +148,7 @@ GroundChapter addGround(const ReviewScene& scene, const std::vector<std::size_t>
                 if (std::find(event.tracks.begin(), event.tracks.end(), path.track) != event.tracks.end())
                     painter.way(path, event.first_frame, event.last_frame);
         }
-        for (const std::size_t index : indices) painter.place(scene.input().reviewed.events[index], index + 1);
+        painter.places(scene.input().reviewed.events, indices);
         const std::string name = "ground-" + std::to_string(sheet + 1);
         report.add(name, ReportPicture::Kind::jpeg, painter.jpeg(), kWidth_mm);
         chapter.pictures.push_back(name);

@@ -181,7 +181,7 @@ void tellGround(ReportPage& page, const ReviewScene& scene, const std::vector<st
     page.chapter("The ground");
     std::string text =
         "What was seen of the ground, from above. Rings are the places of the events with their numbers; lines are the "
-        "ways of their vehicles, blue while the event lasts.";
+        "paths of their vehicles, blue while the event lasts.";
     if (ground.left_out > 0)
         text += " " + std::to_string(ground.left_out) + (ground.left_out == 1 ? " event lies" : " events lie") +
                 " on ground that is not shown here.";
