@@ -235,7 +235,7 @@ TEST_F(ReviewReport, TheGroundShowsWhereTheEventsWereAndTheWaysThere) {
     const double zoom = 1200.0 / kSize.width;
     const auto isGrey = [&](cv::Point in_video, cv::Point away = {}) {
         const cv::Point at(cvRound((in_video.x + 0.5) * zoom - 0.5), cvRound((in_video.y + 0.5) * zoom - 0.5));
-        const cv::Vec3b pixel = ground.at<cv::Vec3b>(at + away);
+        const cv::Vec3b& pixel = ground.at<cv::Vec3b>(at + away);
         return std::abs(pixel[0] - 120) + std::abs(pixel[1] - 120) + std::abs(pixel[2] - 120) < 60;
     };
     EXPECT_FALSE(isGrey({150, 200})) << "the way";
