@@ -16,15 +16,6 @@
 namespace eyrie::box_tracker_test {
 namespace {
 
-cv::Mat noise(cv::Size size, int seed, double blur) {
-    cv::Mat picture(size, CV_8UC1);
-    cv::RNG dice(static_cast<std::uint64_t>(seed));
-    dice.fill(picture, cv::RNG::UNIFORM, 0, 256);
-    cv::GaussianBlur(picture, picture, {}, blur);
-    cv::normalize(picture, picture, 40, 200, cv::NORM_MINMAX);
-    return picture;
-}
-
 /// A textured car on a textured ground under a camera that pans and turns; optionally a bridge it passes under.
 class DrawnScene {
  public:
@@ -63,11 +54,11 @@ class DrawnScene {
 
  private:
     bool bridge_;
-    cv::Mat ground_ = noise({500, 400}, 1, 2.5);
-    cv::Mat car_ = noise({27, 13}, 2, 1.2);
+    cv::Mat ground_ = test::groundTexture({500, 400}, 1, 2.5);
+    cv::Mat car_ = test::groundTexture({27, 13}, 2, 1.2);
     cv::Mat roof_ = [] {
         cv::Mat roof = cv::Mat::zeros(400, 500, CV_8UC1);
-        noise({50, 400}, 3, 2).copyTo(roof(cv::Rect(190, 0, 50, 400)));
+        test::groundTexture({50, 400}, 3, 2).copyTo(roof(cv::Rect(190, 0, 50, 400)));
         return roof;
     }();
 };
@@ -165,9 +156,9 @@ class WaitingScene {
 
  private:
     bool high_, leaves_;
-    cv::Mat ground_ = noise({400, 300}, 5, 2.5);
-    cv::Mat car_ = noise({40, 20}, 6, 1.2);
-    cv::Mat lorry_ = noise({80, 30}, 7, 1.5);
+    cv::Mat ground_ = test::groundTexture({400, 300}, 5, 2.5);
+    cv::Mat car_ = test::groundTexture({40, 20}, 6, 1.2);
+    cv::Mat lorry_ = test::groundTexture({80, 30}, 7, 1.5);
 };
 
 TEST(BoxTracker, WhatWaitsIsFollowedWhileOthersPassInFrontOfIt) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "annotation/keyframes/camera_motion.h"
@@ -10,6 +11,16 @@
 
 /// A flat ground seen by a moving camera, for the tests of labelling.
 namespace eyrie::test {
+
+/// A ground or a roof with something to follow on it; the larger `blur` (px), the coarser.
+inline cv::Mat groundTexture(cv::Size size, int seed, double blur) {
+    cv::Mat picture(size, CV_8UC1);
+    cv::RNG dice(static_cast<std::uint64_t>(seed));
+    dice.fill(picture, cv::RNG::UNIFORM, 0, 256);
+    cv::GaussianBlur(picture, picture, {}, blur);
+    cv::normalize(picture, picture, 40, 200, cv::NORM_MINMAX);
+    return picture;
+}
 
 /// frame_from_ground: similarity that pans, turns and zooms.
 inline cv::Matx33d flyingView(double frame) {

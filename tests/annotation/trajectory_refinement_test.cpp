@@ -10,15 +10,6 @@
 namespace eyrie::trajectory_refinement_test {
 namespace {
 
-cv::Mat noise(cv::Size size, int seed, double blur) {
-    cv::Mat picture(size, CV_8UC1);
-    cv::RNG dice(static_cast<std::uint64_t>(seed));
-    dice.fill(picture, cv::RNG::UNIFORM, 0, 256);
-    cv::GaussianBlur(picture, picture, {}, blur);
-    cv::normalize(picture, picture, 40, 200, cv::NORM_MINMAX);
-    return picture;
-}
-
 /// A textured car on a textured ground; the camera stands still.
 class Street {
  public:
@@ -41,8 +32,8 @@ class Street {
     }
 
  private:
-    cv::Mat ground_ = noise({260, 160}, 1, 2.5);
-    cv::Mat car_ = noise({27, 13}, 2, 1.2);
+    cv::Mat ground_ = test::groundTexture({260, 160}, 1, 2.5);
+    cv::Mat car_ = test::groundTexture({27, 13}, 2, 1.2);
 };
 
 const CameraMotion standing = CameraMotion::standing(0, Street::kLast);

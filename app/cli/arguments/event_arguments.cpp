@@ -6,10 +6,19 @@
 #include "cli/arguments/earlier_state.h"
 #include "cli/arguments/preset_arguments.h"
 #include "cli/project_runs.h"
+#include "core/error.h"
 #include "correction/corrected_run.h"
 #include "events/zones/zone_file.h"
 
 namespace eyrie::cli {
+
+void checkEventNumber(int number, const ReviewedRun& reviewed) {
+    const std::size_t count = reviewed.events.size();
+    if (number >= 1 && static_cast<std::size_t>(number) <= count) return;
+    throw Error(ErrorKind::parameter, "--event " + std::to_string(number) + ": the run has " +
+                                          (count == 0 ? "no events" : "the events 1 to " + std::to_string(count)) +
+                                          "; eyrie-cli events lists them with their numbers");
+}
 
 void EventArguments::addRunTo(CLI::App& command) {
     command.add_option("--project", project, "Project that holds the run")->required();

@@ -15,6 +15,9 @@ namespace eyrie::cli {
 /// --uncorrected, of commands that hand out tracks.
 void addUncorrected(CLI::App& command, bool& uncorrected);
 
+/// Throws Error(parameter) unless a run has an event of this number, from 1, as --event names it.
+void checkEventNumber(int number, const ReviewedRun& reviewed);
+
 /// Which events of which run a command is about.
 struct EventArguments {
     std::string project;

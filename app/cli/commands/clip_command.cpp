@@ -34,13 +34,8 @@ struct ClipArguments {
 
 /// The frames of an event with what is before and after it, as far as the run goes.
 FrameRange framesOfEvent(const ClipArguments& arguments, const ReviewedRun& reviewed) {
-    const int count = static_cast<int>(reviewed.events.size());
     const int number = *arguments.event;
-    if (number < 1 || number > count) {
-        throw Error(ErrorKind::parameter, "--event " + std::to_string(number) + ": the run has " +
-                                              (count == 0 ? "no events" : "the events 1 to " + std::to_string(count)) +
-                                              "; eyrie-cli events lists them with their numbers");
-    }
+    checkEventNumber(number, reviewed);
     const Event& event = reviewed.events[static_cast<std::size_t>(number - 1)];
     const Footage& footage = reviewed.tracks.footage;
     return framesAround({event.first_frame, event.last_frame}, arguments.around_s,

@@ -85,7 +85,7 @@ void tellEvents(const ListArguments& arguments) {
     const FrameClock seconds = [&](FrameIndex frame) { return stored.secondsOf(frame); };
     const VideoClock clock = clockFor(arguments, reviewed.run);
     if (clock.source() != VideoClock::Source::none)
-        std::fprintf(stderr, "eyrie-cli: clock times are those of %s\n", clock.origin().c_str());
+        std::fprintf(stderr, "eyrie-cli: clock times come from %s\n", clock.origin().c_str());
     const FrameMoment moment = momentsBy(clock, seconds);
     if (!arguments.csv.empty()) {
         writeEventCsv(arguments.csv, wanted.events, seconds, wanted.verdicts, wanted.numbers, makersOf(wanted, stored),

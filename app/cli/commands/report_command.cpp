@@ -59,16 +59,6 @@ std::string digestOf(const std::string& video, const std::stop_token& stop) {
     }
 }
 
-void checkNumbers(const std::vector<int>& numbers, std::size_t events) {
-    for (const int number : numbers) {
-        if (number >= 1 && static_cast<std::size_t>(number) <= events) continue;
-        throw Error(ErrorKind::parameter,
-                    "--event " + std::to_string(number) + ": the run has " +
-                        (events == 0 ? "no events" : "the events 1 to " + std::to_string(events)) +
-                        "; eyrie-cli events lists them with their numbers");
-    }
-}
-
 /// Answers the exit code.
 int makeEventReport(const ReportArguments& arguments) {
     EventArguments events = arguments.events;
@@ -87,7 +77,7 @@ int makeEventReport(const ReportArguments& arguments) {
     const std::unique_ptr<FrameSource> pixels = pixelsOf(run, "pictures", interrupt.token());
     ReviewReportInput input = gatherReviewReport(project, run, choice, pixels.get(), start, interrupt.token());
     events.tellZones(input.reviewed);
-    checkNumbers(arguments.numbers, input.reviewed.events.size());
+    for (const int number : arguments.numbers) checkEventNumber(number, input.reviewed);
     if (pixels && pixels->info().container != "scene")
         input.video_digest = digestOf(run.sequence.path, interrupt.token());
     input.made_utc = nowUtc();

@@ -20,8 +20,7 @@ struct ClipWish {
 };
 
 /// `event`, which is brought into `whole`, with what lies up to `around_s` seconds before and after it, as far as that
-/// goes. `secondsOf` answers the
-/// time of a frame, which need not be even.
+/// goes. `secondsOf` answers the time of a frame, which need not be even.
 FrameRange framesAround(FrameRange event, double around_s, FrameRange whole,
                         const std::function<double(FrameIndex)>& secondsOf);
 

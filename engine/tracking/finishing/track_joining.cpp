@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <numeric>
+#include <utility>
 
 #include "core/geometry/angle.h"
 #include "tracking/association/best_assignment.h"
@@ -110,21 +111,38 @@ class Joiner {
     SceneScale scale_;
 };
 
+/// Pairs of which the second may continue the first, by the second, then the first. An hour has some 100,000 paths:
+/// only those that live at one time, or nearly, meet.
+std::vector<WeightedPair> possiblePairs(const std::vector<TrackPath>& paths, const Joiner& joiner) {
+    std::vector<std::size_t> by_begin(paths.size());
+    std::iota(by_begin.begin(), by_begin.end(), std::size_t{0});
+    std::stable_sort(by_begin.begin(), by_begin.end(),
+                     [&](std::size_t a, std::size_t b) { return paths[a].firstFrame() < paths[b].firstFrame(); });
+    std::vector<WeightedPair> pairs;
+    std::vector<std::size_t> living;
+    for (const std::size_t later : by_begin) {
+        const FrameIndex begin = paths[later].firstFrame();
+        std::erase_if(living, [&](std::size_t path) { return begin - paths[path].lastFrame() > joiner.maxGap(); });
+        for (const std::size_t earlier : living) {
+            if (paths[earlier].firstFrame() >= begin) continue;
+            const double worth = joiner.worth(paths[earlier], paths[later]);
+            if (worth > 0) pairs.push_back({static_cast<int>(earlier), static_cast<int>(later), worth});
+        }
+        living.push_back(later);
+    }
+    std::sort(pairs.begin(), pairs.end(), [](const WeightedPair& a, const WeightedPair& b) {
+        return std::pair(a.column, a.row) < std::pair(b.column, b.row);
+    });
+    return pairs;
+}
+
 }  // namespace
 
 std::vector<TrackPath> joinFragments(std::vector<TrackPath> paths, const GroundMotion& ground,
                                      const FinishingOptions& options, const SceneScale& scale) {
     const Joiner joiner(ground, options, scale);
     if (joiner.maxGap() < 1) return paths;
-    std::vector<WeightedPair> pairs;
-    for (std::size_t later = 0; later < paths.size(); ++later) {
-        for (std::size_t earlier = 0; earlier < paths.size(); ++earlier) {
-            if (earlier == later || paths[earlier].firstFrame() >= paths[later].firstFrame()) continue;
-            if (paths[later].firstFrame() - paths[earlier].lastFrame() > joiner.maxGap()) continue;
-            const double worth = joiner.worth(paths[earlier], paths[later]);
-            if (worth > 0) pairs.push_back({static_cast<int>(earlier), static_cast<int>(later), worth});
-        }
-    }
+    const std::vector<WeightedPair> pairs = possiblePairs(paths, joiner);
     std::vector<int> continued_by(paths.size(), -1);
     std::vector<char> is_continuation(paths.size(), 0);
     for (const int chosen : bestAssignment(pairs)) {

@@ -58,13 +58,12 @@ bool isShadowOf(const TrackPath& shadow, const TrackPath& vehicle, const SceneSc
 
 void dropShadows(std::vector<TrackPath>& paths, const SceneScale& scale, DropList& dropped) {
     std::vector<TrackId> vehicle_of(paths.size(), 0);
+    std::vector<int> detections;  // counted once: an hour has tens of thousands of paths
+    for (const TrackPath& path : paths) detections.push_back(path.statesOf(StateOrigin::detected));
     for (std::size_t i = 0; i < paths.size(); ++i) {
-        const double detected = paths[i].statesOf(StateOrigin::detected);
-        const auto vehicle = std::find_if(paths.begin(), paths.end(), [&](const TrackPath& other) {
-            return detected < kDetected * other.statesOf(StateOrigin::detected) && isShadowOf(paths[i], other, scale);
-        });
-        if (vehicle == paths.end()) continue;
-        vehicle_of[i] = vehicle->id;
+        for (std::size_t other = 0; other < paths.size() && vehicle_of[i] == 0; ++other)
+            if (detections[i] < kDetected * detections[other] && isShadowOf(paths[i], paths[other], scale))
+                vehicle_of[i] = paths[other].id;
     }
     std::size_t at = 0;
     std::erase_if(paths, [&](TrackPath& path) {
