@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "review/runs_model.h"
+#include "review/runs/runs_model.h"
 #include "window/question.h"
 
 namespace eyrie::ui {

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "review/run_text.h"
-#include "review/runs_model.h"
+#include "review/runs/run_text.h"
+#include "review/runs/runs_model.h"
 #include "session/project_session.h"
 #include "widgets/message_bar.h"
 #include "widgets/wiring.h"

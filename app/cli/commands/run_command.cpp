@@ -16,7 +16,7 @@
 #include "cli/arguments/video_arguments.h"
 #include "cli/command.h"
 #include "cli/interrupt.h"
-#include "cli/live_command.h"
+#include "cli/live/live_command.h"
 #include "cli/reports/console_progress.h"
 #include "cli/reports/run_report.h"
 #include "core/error.h"

@@ -16,7 +16,7 @@
 #include "review/events/event_thresholds.h"
 #include "review/events/events_panel.h"
 #include "review/events/left_list.h"
-#include "review/inspector_panel.h"
+#include "review/inspector/inspector_panel.h"
 #include "ui/session/session_support.h"
 #include "ui/support/ui_test.h"
 #include "widgets/charts/stage_times_chart.h"

@@ -1,4 +1,4 @@
-#include "review/run_text.h"
+#include "review/runs/run_text.h"
 
 #include <QLocale>
 #include <QTest>

@@ -9,7 +9,7 @@
 
 #include "review/events/found_events.h"
 #include "review/tracks/filter_chips.h"
-#include "review/tracks_panel.h"
+#include "review/tracks/tracks_panel.h"
 #include "ui/support/ui_support.h"
 #include "ui/support/ui_test.h"
 #include "widgets/tables/table_roles.h"

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "panels_support.h"
-#include "review/runs_model.h"
-#include "review/tracks_model.h"
+#include "review/runs/runs_model.h"
+#include "review/tracks/tracks_model.h"
 #include "ui/support/ui_test.h"
 #include "widgets/display_text.h"
 #include "widgets/tables/table_roles.h"

@@ -3,7 +3,7 @@
 #include <QToolButton>
 
 #include "panels_support.h"
-#include "review/track_inspector.h"
+#include "review/inspector/track_inspector.h"
 #include "ui/support/ui_test.h"
 #include "widgets/charts/origin_bar.h"
 

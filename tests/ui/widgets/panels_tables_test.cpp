@@ -11,8 +11,8 @@
 #include <memory>
 
 #include "panels_support.h"
-#include "review/runs_panel.h"
-#include "review/tracks_panel.h"
+#include "review/runs/runs_panel.h"
+#include "review/tracks/tracks_panel.h"
 #include "ui/support/ui_test.h"
 #include "widgets/empty_state.h"
 #include "widgets/tables/table_roles.h"

@@ -13,7 +13,7 @@
 #include "review/events/event_thresholds.h"
 #include "review/events/events_dock.h"
 #include "review/events/events_panel.h"
-#include "review/tracks_panel.h"
+#include "review/tracks/tracks_panel.h"
 #include "support/replaced_tracks.h"
 #include "ui/session/session_support.h"
 #include "ui/support/ui_test.h"

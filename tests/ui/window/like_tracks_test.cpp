@@ -3,7 +3,7 @@
 #include <QToolButton>
 
 #include "review/tracks/filter_chips.h"
-#include "review/tracks_panel.h"
+#include "review/tracks/tracks_panel.h"
 #include "ui/session/session_support.h"
 #include "ui/support/ui_test.h"
 #include "widgets/message_bar.h"

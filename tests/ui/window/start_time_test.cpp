@@ -13,7 +13,7 @@
 #include "review/events/event_review.h"
 #include "review/events/events_dock.h"
 #include "review/events/events_panel.h"
-#include "review/tracks_panel.h"
+#include "review/tracks/tracks_panel.h"
 #include "ui/support/ui_test.h"
 #include "ui/window/window_with_run.h"
 #include "window/docks/review_docks.h"

@@ -6,7 +6,7 @@
 #include "canvas/video_view.h"
 #include "core/error.h"
 #include "review/card/card_dock.h"
-#include "review/inspector_panel.h"
+#include "review/inspector/inspector_panel.h"
 #include "review/mosaic/mosaic_panel.h"
 #include "review/watch/watched_ground.h"
 #include "store/runs/result_writer.h"

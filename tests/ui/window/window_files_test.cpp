@@ -14,8 +14,8 @@
 #include <QTest>
 
 #include "canvas/video_view.h"
-#include "review/runs_panel.h"
-#include "review/tracks_panel.h"
+#include "review/runs/runs_panel.h"
+#include "review/tracks/tracks_panel.h"
 #include "store/health/project_contents.h"
 #include "ui/session/session_support.h"
 #include "ui/support/ui_support.h"

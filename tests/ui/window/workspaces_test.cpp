@@ -25,7 +25,7 @@
 #include "review/card/event_card.h"
 #include "review/events/event_review.h"
 #include "review/events/events_dock.h"
-#include "review/track_inspector.h"
+#include "review/inspector/track_inspector.h"
 #include "ui/support/ui_support.h"
 #include "ui/support/ui_test.h"
 #include "widgets/message_bar.h"

@@ -3,7 +3,7 @@
 #include "review/events/event_text.h"
 #include "review/events/events_dock.h"
 #include "review/events/events_model.h"
-#include "review/tracks_model.h"
+#include "review/tracks/tracks_model.h"
 #include "review/watch/watched_ground.h"
 #include "widgets/layout/scrolled.h"
 #include "workspace/dock_registry.h"

@@ -11,7 +11,7 @@
 #include "correction/corrected_run.h"
 #include "review/correct/vehicle_box_tool.h"
 #include "review/events/event_review.h"
-#include "review/tracks_panel.h"
+#include "review/tracks/tracks_panel.h"
 #include "session/background/pace.h"
 #include "session/project/media.h"
 #include "session/project_session.h"

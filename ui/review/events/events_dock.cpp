@@ -13,7 +13,7 @@
 #include "review/events/event_thresholds.h"
 #include "review/events/events_panel.h"
 #include "review/events/left_list.h"
-#include "review/run_text.h"
+#include "review/runs/run_text.h"
 #include "review/zones/zone_review.h"
 #include "review/zones/zones_panel.h"
 #include "widgets/display_text.h"

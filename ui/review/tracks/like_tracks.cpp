@@ -2,7 +2,7 @@
 
 #include "ground/track_likeness.h"
 #include "review/tracks/filter_chips.h"
-#include "review/tracks_panel.h"
+#include "review/tracks/tracks_panel.h"
 #include "review/watch/watched_ground.h"
 #include "session/project_session.h"
 #include "widgets/message_bar.h"

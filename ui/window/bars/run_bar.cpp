@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "core/values/scene_scale.h"
-#include "review/run_text.h"
+#include "review/runs/run_text.h"
 #include "widgets/gsd_text.h"
 #include "widgets/message_bar.h"
 #include "widgets/wiring.h"

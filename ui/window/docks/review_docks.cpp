@@ -1,9 +1,9 @@
 #include "window/docks/review_docks.h"
 
-#include "review/inspector_panel.h"
-#include "review/run_text.h"
-#include "review/runs_panel.h"
-#include "review/tracks_panel.h"
+#include "review/inspector/inspector_panel.h"
+#include "review/runs/run_text.h"
+#include "review/runs/runs_panel.h"
+#include "review/tracks/tracks_panel.h"
 #include "tune/inspect/motion_statistics_panel.h"
 #include "tune/inspect/stacks_panel.h"
 #include "tune/inspect/stages_panel.h"

@@ -4,8 +4,8 @@
 #include <QObject>
 #include <functional>
 
-#include "review/runs_model.h"
-#include "review/tracks_model.h"
+#include "review/runs/runs_model.h"
+#include "review/tracks/tracks_model.h"
 #include "session/project_session.h"
 
 namespace eyrie::ui {

@@ -3,7 +3,7 @@
 #include <functional>
 #include <utility>
 
-#include "review/runs_model.h"
+#include "review/runs/runs_model.h"
 #include "widgets/tables/table_panel.h"
 
 namespace eyrie::ui {

@@ -1,4 +1,4 @@
-#include "review/inspector_panel.h"
+#include "review/inspector/inspector_panel.h"
 
 #include <QFormLayout>
 #include <QLabel>
@@ -9,8 +9,8 @@
 #include <cmath>
 
 #include "core/geometry/angle.h"
-#include "review/track_inspector.h"
-#include "review/tracks_model.h"
+#include "review/inspector/track_inspector.h"
+#include "review/tracks/tracks_model.h"
 #include "widgets/display_text.h"
 #include "widgets/wiring.h"
 

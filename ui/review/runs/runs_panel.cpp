@@ -1,4 +1,4 @@
-#include "review/runs_panel.h"
+#include "review/runs/runs_panel.h"
 
 #include <QKeyEvent>
 #include <QMenu>

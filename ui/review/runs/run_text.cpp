@@ -1,10 +1,10 @@
-#include "review/run_text.h"
+#include "review/runs/run_text.h"
 
 #include <QCoreApplication>
 #include <QLocale>
 #include <QStringList>
 
-#include "review/runs_model.h"
+#include "review/runs/runs_model.h"
 #include "widgets/display_text.h"
 
 namespace eyrie::ui {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "review/tracks/track_doings.h"
-#include "review/tracks_model.h"
+#include "review/tracks/tracks_model.h"
 #include "widgets/tables/table_panel.h"
 
 class QLabel;

@@ -1,4 +1,4 @@
-#include "review/track_inspector.h"
+#include "review/inspector/track_inspector.h"
 
 #include <QFormLayout>
 #include <QHBoxLayout>

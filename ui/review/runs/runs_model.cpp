@@ -1,9 +1,9 @@
-#include "review/runs_model.h"
+#include "review/runs/runs_model.h"
 
 #include <QCoreApplication>
 #include <QFileInfo>
 
-#include "review/run_text.h"
+#include "review/runs/run_text.h"
 #include "widgets/display_text.h"
 #include "widgets/tables/table_roles.h"
 

@@ -1,4 +1,4 @@
-#include "review/tracks_model.h"
+#include "review/tracks/tracks_model.h"
 
 #include <QGuiApplication>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "review/tracks_panel.h"
+#include "review/tracks/tracks_panel.h"
 
 #include <QHBoxLayout>
 #include <QHeaderView>

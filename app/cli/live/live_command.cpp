@@ -1,4 +1,4 @@
-#include "cli/live_command.h"
+#include "cli/live/live_command.h"
 
 #include <algorithm>
 #include <condition_variable>
