@@ -118,7 +118,7 @@ class WindowFilesTest : public QObject {
             rate->setFocus();
             QTest::keyClick(rate, Qt::Key_Return);
             QVERIFY(waitFor([&] { return !window.session().video()->frame_rate_assumed; }));
-            QVERIFY(!says(window, asked));
+            QVERIFY(waitFor([&] { return !says(window, asked); }));
             QVERIFY(waitFor([&] { return !status(); }));
             QCOMPARE(rate->suffix(), QStringLiteral(" fps"));
         }
