@@ -375,6 +375,22 @@ TEST_F(RunStoreTest, WhatFinishingLeftOutIsReadWithItsFrame) {
     EXPECT_EQ(store.frameResult(writer.runId(), 5)->dropped.size(), 1U);
 }
 
+TEST_F(RunStoreTest, OfFramesWithoutDetailsOnlyWhereATrackWasLeftOutFirstIsKept) {
+    ProjectFile project = ProjectFile::create(path_);
+    ResultWriter writer(path_, sampleRun(), {});
+    for (const FrameResult& frame : twoTracks()) writer.write(frame);
+    SQLite::Database(path_.string(), SQLite::OPEN_READWRITE).exec("UPDATE frame SET details = 0 WHERE frame > 4");
+    RunStore store(project);
+    const DroppedState shadow{7, {{50, 60}, 18, 7, 0.5}, TrackDrop::shadow, 1};
+    const DroppedState small{8, {{10, 20}, 4, 2, 0}, TrackDrop::too_small, 0};
+    test::replaceTrackStates(store, writer.runId(), {}, {{6, small}, {5, small}, {5, shadow}, {4, shadow}});
+    const auto left = [&](FrameIndex frame) { return store.frameResult(writer.runId(), frame)->dropped.size(); };
+    EXPECT_EQ(left(4), 1U) << "with its details";
+    ASSERT_EQ(left(5), 1U);
+    EXPECT_EQ(store.frameResult(writer.runId(), 5)->dropped.front().id, 8) << "the first of it, whatever comes first";
+    EXPECT_EQ(left(6), 0U);
+}
+
 TEST_F(RunStoreTest, ADetectionIsToldByItsProbabilityWhereItHasOne) {
     ProjectFile project = ProjectFile::create(path_);
     ResultWriter writer(path_, sampleRun(), {});

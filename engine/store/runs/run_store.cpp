@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "core/utc_time.h"
 #include "store/database/rows.h"
@@ -114,6 +116,27 @@ Homography homographyOf(RowReader& row) {
     homography.inliers = row.integer();
     homography.rms_px = row.real();
     return homography;
+}
+
+std::unordered_set<FrameIndex> framesWithoutDetails(SQLite::Database& database, int run_id) {
+    SQLite::Statement statement(database, "SELECT frame FROM frame WHERE run_id = ? AND details = 0");
+    statement.bind(1, run_id);
+    std::unordered_set<FrameIndex> frames;
+    while (statement.executeStep()) {
+        RowReader row(statement);
+        frames.insert(readFrameNumber(row));
+    }
+    return frames;
+}
+
+/// In which frame each track was left out first.
+std::unordered_map<TrackId, FrameIndex> firstFramesOf(const TracksOfRun& tracks) {
+    std::unordered_map<TrackId, FrameIndex> firsts;
+    tracks.dropped([&](FrameIndex frame, const DroppedState& state) {
+        const auto [known, added] = firsts.emplace(state.id, frame);
+        if (!added) known->second = std::min(known->second, frame);
+    });
+    return firsts;
 }
 
 /// Asks for the states once more than whoever stores them.
@@ -266,7 +289,12 @@ void RunStore::replaceTracks(int run_id, const TracksOfRun& tracks) {
         SQLite::Statement left_out(database,
                                    "INSERT OR REPLACE INTO dropped_state (run_id, frame, track_id, x, y, length, "
                                    "width, heading_rad, reason, beside) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+        // Of frames without details nobody can ask why; what was left out at all is still to be counted.
+        const std::unordered_set<FrameIndex> bare = framesWithoutDetails(database, run_id);
+        const std::unordered_map<TrackId, FrameIndex> firsts =
+            bare.empty() ? std::unordered_map<TrackId, FrameIndex>{} : firstFramesOf(tracks);
         tracks.dropped([&](FrameIndex frame, const DroppedState& state) {
+            if (bare.contains(frame) && firsts.at(state.id) != frame) return;
             RowWriter(left_out)
                 .integer(run_id)
                 .integer(frame)
@@ -276,13 +304,6 @@ void RunStore::replaceTracks(int run_id, const TracksOfRun& tracks) {
                 .integer(state.beside)
                 .run();
         });
-        // Of frames without details nobody can ask why; what was left out at all is still to be counted.
-        SQLite::Statement thin(
-            database,
-            "DELETE FROM dropped_state WHERE run_id = ?1 AND frame IN (SELECT frame FROM frame WHERE "
-            "run_id = ?1 AND details = 0) AND (track_id, frame) NOT IN (SELECT track_id, min(frame) "
-            "FROM dropped_state WHERE run_id = ?1 GROUP BY track_id)");
-        RowWriter(thin).integer(run_id).run();
         for (const char* table : {"doubtful_state", "track_evidence", "track_state"}) removeFrom(table);
         removeFrom("track");
         const std::map<TrackId, CommonOfTrack> common = commonOf(tracks);
