@@ -43,17 +43,6 @@ QString vmtiText(const VmtiReport& report, const LabelStream& labels) {
            lines(remarksOn(report, labels.about.world->no_place)) + lines(labels.about.notes);
 }
 
-std::unique_ptr<FrameSource> pixelsOf(const ExportedRun& run, bool needed, const std::stop_token& stop) {
-    if (!run.media) return nullptr;
-    try {
-        return run.media->open({}, stop);
-    } catch (const Error&) {
-        // Boxes can be written without it; what needs times or places on the earth says so.
-        if (needed || stop.stop_requested()) throw;
-        return nullptr;
-    }
-}
-
 std::optional<QString> writeTracks(const ExportedRun& run, const ExportWish& wish, const ExportProgress& progress,
                                    const std::stop_token& stop) {
     ProjectFile project = ProjectFile::open(run.project, ProjectFile::Mode::read_only);
@@ -61,21 +50,14 @@ std::optional<QString> writeTracks(const ExportedRun& run, const ExportWish& wis
     const CorrectedTracks corrected = readCorrectedTracks(project, run.record);
     const Snapshot unchanging(project);
     LabelStream labels = labelStreamOf(store, run.record, corrected);
-    const bool as_video = wish.format == kVmtiFormat;
-    std::unique_ptr<FrameSource> pixels;
-    if (tellsWorld(wish.format)) {
-        pixels = pixelsOf(run, as_video, stop);
-        if (stop.stop_requested()) return std::nullopt;
-        addWorld(labels, project, run.record, pixels.get(), {}, stop);
-    }
-    if (!as_video) {
-        const LabelFile about = labels.about;
-        ExportReport report =
+    const auto open = [&] { return run.media ? run.media->open({}, stop) : nullptr; };
+    const auto video = addWorld(wish.format, labels, project, run.record, open, {}, stop);
+    if (wish.format != kVmtiFormat) {
+        const ExportReport report =
             writeLabels(labels, wish.path, wish.format, exportOptionsOf(wish, run.record.sequence.path));
-        return exportText(report) + lines(about.notes);
+        return exportText(report) + lines(labels.about.notes);
     }
-    if (!pixels) throw Error(ErrorKind::input, run.record.sequence.path + ": the video is needed for this format");
-    const VmtiReport report = writeVmti(labels, *pixels, wish.path, progress, stop);
+    const VmtiReport report = writeVmti(labels, *video, wish.path, progress, stop);
     if (stop.stop_requested()) return std::nullopt;
     return vmtiText(report, labels);
 }
