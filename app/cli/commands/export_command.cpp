@@ -3,6 +3,7 @@
 #include <memory>
 #include <utility>
 
+#include "cli/arguments/common_options.h"
 #include "cli/arguments/described_sequence.h"
 #include "cli/arguments/earlier_state.h"
 #include "cli/arguments/event_arguments.h"
@@ -143,9 +144,8 @@ void addExportCommand(CLI::App& app, int& exit_code) {
             ->needs(project);
     addUncorrected(*command, arguments->uncorrected);
     command->get_option("--uncorrected")->needs(project)->excludes(labels)->excludes(detections);
-    command->add_option("--sequence", arguments->sequence, "Number of the project's video, where it has several")
-        ->needs(project);
-    command->add_option("--start", arguments->start, kStartHelp)->needs(project);
+    addSequenceNumber(*command, arguments->sequence)->needs(project);
+    addStart(*command, arguments->start)->needs(project);
     command->add_option("--from", arguments->from, "File or folder of labels to convert")->excludes(project);
     addLabelOptions(*command, arguments->from_labels, "--from-format", "--from-columns");
     command->add_option("--format", arguments->format, "One of " + formatNames(true) + ", " + kVmtiFormat)->required();
