@@ -15,13 +15,6 @@ constexpr AVRational kMicrosecond{1, 1'000'000};
 constexpr int kFirstFreePid = 0x100;
 constexpr int kMostPid = 0x1FFA;
 
-struct CloseStreamCopy {
-    void operator()(AVFormatContext* context) const {
-        if (context->pb != nullptr) avio_closep(&context->pb);
-        avformat_free_context(context);
-    }
-};
-
 /// A transport stream that is being written beside its place.
 class StreamCopy {
  public:
@@ -155,7 +148,7 @@ class StreamCopy {
 
     std::filesystem::path from_, to_, part_;
     libav::Demuxer demuxer_;
-    std::unique_ptr<AVFormatContext, CloseStreamCopy> muxer_;
+    libav::Muxer muxer_;
     libav::Packet packet_{av_packet_alloc()};
     AVStream* klv_ = nullptr;
     int video_ = -1;           ///< track of the original whose pictures are the frames
