@@ -34,7 +34,6 @@ ExportOffer vmtiOffer() {
     offer.title = tell("MISB ST 0903 VMTI in a copy of the video");
     offer.ending = QStringLiteral("ts");
     offer.holds = tell("targets with ids, confidence, boxes, and places where they are known; not: rotation");
-    offer.can_stop = true;
     return offer;
 }
 
@@ -54,7 +53,7 @@ std::optional<QString> writeTracks(const ExportedRun& run, const ExportWish& wis
     const auto video = addWorld(wish.format, labels, project, run.record, open, {}, stop);
     if (wish.format != kVmtiFormat) {
         const ExportReport report =
-            writeLabels(labels, wish.path, wish.format, exportOptionsOf(wish, run.record.sequence.path));
+            writeLabels(labels, wish.path, wish.format, exportOptionsOf(wish, run.record.sequence.path), stop);
         return exportText(report) + lines(labels.about.notes);
     }
     const VmtiReport report = writeVmti(labels, *video, wish.path, progress, stop);
@@ -79,13 +78,8 @@ ExportSource trackExport(const ProjectSession& session) {
         return labelOutputs(wish, exportOptionsOf(wish, run.record.sequence.path));
     };
     source.begin = [run](const ExportWish& wish) -> ExportWork {
-        return [run, wish](const ExportProgress& progress, const std::stop_token& stop) -> std::optional<QString> {
-            try {
-                return writeTracks(run, wish, progress, stop);
-            } catch (const Error&) {
-                if (stop.stop_requested()) return std::nullopt;
-                throw;
-            }
+        return [run, wish](const ExportProgress& progress, const std::stop_token& stop) {
+            return writeTracks(run, wish, progress, stop);
         };
     };
     return source;
