@@ -5,8 +5,8 @@
 #include <limits>
 #include <set>
 
+#include "core/labels/result_box.h"
 #include "store/review/review_store.h"
-#include "store/runs/box_of_state.h"
 #include "store/runs/class_rule.h"
 
 namespace eyrie {

@@ -9,6 +9,7 @@
 #include "store/review/control_points.h"
 
 namespace eyrie {
+namespace {
 
 bool tellsWorld(const std::string& format) {
     const auto& formats = labelFormats();
@@ -17,13 +18,33 @@ bool tellsWorld(const std::string& format) {
            });
 }
 
-void addWorld(LabelStream& labels, ProjectFile& project, const RunRecord& run, const FrameSource* pixels,
-              std::optional<std::int64_t> start_utc_us, const std::stop_token& stop) {
+std::unique_ptr<FrameSource> openedFor(const std::string& format, const RunRecord& run, const OpenVideo& open,
+                                       const std::stop_token& stop) {
+    const bool needed = format == kVmtiFormat;
+    std::unique_ptr<FrameSource> video;
+    try {
+        video = open();
+    } catch (const Error&) {
+        // Boxes can be written without it; what needs times or places on the earth says so.
+        if (needed || stop.stop_requested()) throw;
+    }
+    if (needed && !video) throw Error(ErrorKind::input, run.sequence.path + ": the video is needed for this format");
+    return video;
+}
+
+}  // namespace
+
+std::unique_ptr<FrameSource> addWorld(const std::string& format, LabelStream& labels, ProjectFile& project,
+                                      const RunRecord& run, const OpenVideo& open,
+                                      std::optional<std::int64_t> start_utc_us, const std::stop_token& stop) {
+    if (!tellsWorld(format)) return nullptr;
+    std::unique_ptr<FrameSource> video = openedFor(format, run, open, stop);
     const auto start = videoStartOf(project, run.sequence.id, start_utc_us);
     labels.about.world =
-        trackWorldOf(RunStore(project), run, pixels, start, stop, readControlPoints(project, run.sequence.id));
+        trackWorldOf(RunStore(project), run, video.get(), start, stop, readControlPoints(project, run.sequence.id));
     if (stop.stop_requested())
         throw Error(ErrorKind::input, run.sequence.path + ": stopped while reading its metadata");
+    return video;
 }
 
 }  // namespace eyrie

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 
 #include "core/error.h"
 #include "formats/track_world.h"
@@ -130,35 +129,27 @@ VmtiReport writeVmti(const LabelStream& labels, const FrameSource& video, const 
     VmtiFrames frames(labels, video, world);
     const std::vector<std::int64_t> stamps = stampsOf(video);
     VmtiReport report;
-    // A few hundred bytes a target: an hour of them fits, and packets must be asked for while the video is read.
-    std::deque<AddedPacket> packets;
-    FrameIndex next = -1;
-    const auto add = [&](FrameIndex index, const std::vector<LabelBox>& boxes) {
-        const auto at = static_cast<std::size_t>(index);
-        if (at >= stamps.size() || stamps[at] == kNoStamp) {
-            ++report.without_stamp;
-            return;
-        }
-        const vmti::Frame frame = frames.frame(index, boxes);
-        ++report.frames;
-        report.targets += static_cast<int>(frame.targets.size());
-        packets.push_back({stamps[at], vmti::packed(frame)});
+    const auto sets = [&](const TakePacket& take) {
+        const auto add = [&](FrameIndex index, const std::vector<LabelBox>& boxes) {
+            const auto at = static_cast<std::size_t>(index);
+            if (at >= stamps.size() || stamps[at] == kNoStamp) {
+                ++report.without_stamp;
+                return;
+            }
+            const vmti::Frame frame = frames.frame(index, boxes);
+            ++report.frames;
+            report.targets += static_cast<int>(frame.targets.size());
+            take({stamps[at], vmti::packed(frame)});
+        };
+        FrameIndex next = -1;
+        labels.frames([&](FrameIndex index, const std::vector<LabelBox>& boxes) {
+            // Frames without a target say so: silence would mean that nobody looked.
+            for (; next >= 0 && next < index; ++next) add(next, {});
+            add(index, boxes);
+            next = index + 1;
+        });
     };
-    labels.frames([&](FrameIndex index, const std::vector<LabelBox>& boxes) {
-        // Frames without a target say so: silence would mean that nobody looked.
-        for (; next >= 0 && next < index; ++next) add(next, {});
-        add(index, boxes);
-        next = index + 1;
-    });
-    copyWithKlv(
-        video.info().path,
-        [&]() -> std::optional<AddedPacket> {
-            if (packets.empty()) return std::nullopt;
-            AddedPacket packet = std::move(packets.front());
-            packets.pop_front();
-            return packet;
-        },
-        to, progress, stop);
+    copyWithKlv(video.info().path, sets, to, progress, stop);
     report.without_place = frames.withoutPlace();
     report.clock_origin = world.clock_origin;
     report.place_origin = world.place_origin;

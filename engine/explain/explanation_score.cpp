@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kHardly = 0.1;        ///< log-odds that speak neither way
 constexpr double kStillCamera = 0.05;  ///< px/frame
-constexpr double kAlong = 0.8;         ///< cosine from which parallax may be the cause, as in track_standing.cpp
 
 std::string percentText(double share) {
     return std::to_string(std::lround(100 * share)) + " %";
@@ -38,7 +37,7 @@ std::string motionText(const Story& story, const TrackEvidence& evidence) {
     // What rises to a share h of the flight height seems to move h / (1 − h) of the ground's motion more than it.
     const double along = evidence.flow_ratio * evidence.alignment;
     const std::string height =
-        evidence.alignment > kAlong
+        evidence.alignment > kAlongFlow
             ? "; a standing thing would have to be " + numberText(along / (1 + along)) + " of the flight height tall"
             : "";
     return "over the ground it moves " + numberText(evidence.flow_ratio) + " times as fast as the ground through the " +

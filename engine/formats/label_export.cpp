@@ -156,6 +156,19 @@ Preparation preparationFor(const LabelFormat& format, const LabelFile& about, co
     return preparation;
 }
 
+void leaveIfStopped(const std::filesystem::path& path, const std::stop_token& stop) {
+    if (stop.stop_requested()) throw Error(ErrorKind::output, path.string() + ": stopped before it was written");
+}
+
+VisitFrames stoppable(const VisitFrames& frames, const std::filesystem::path& path, const std::stop_token& stop) {
+    return [frames, path, stop](const FrameVisitor& visitor) {
+        frames([&](FrameIndex frame, const std::vector<LabelBox>& records) {
+            leaveIfStopped(path, stop);
+            visitor(frame, records);
+        });
+    };
+}
+
 ExportOptions withValidNames(ExportOptions options) {
     options.sequence = validUtf8(options.sequence);  // names of files may be anything
     return options;
@@ -206,13 +219,18 @@ ExportReport writeLabels(LabelFile labels, const std::filesystem::path& path, co
 }
 
 ExportReport writeLabels(const LabelStream& labels, const std::filesystem::path& path, const std::string& format,
-                         const ExportOptions& options) {
+                         const ExportOptions& options, const std::stop_token& stop) {
     const LabelFormat& known = formatToWrite(format);
     ExportReport report;
     LabelStream stream{labels.about, labels.frames};
     describe(stream.about, options);
-    const Preparation preparation = preparationFor(known, stream.about, labels.frames, path, options, report);
-    stream.frames = Preparation::prepared(labels.frames, preparation);
+    const VisitFrames until_stopped = stoppable(labels.frames, path, stop);
+    const Preparation preparation = preparationFor(known, stream.about, until_stopped, path, options, report);
+    leaveIfStopped(path, stop);
+    // One file takes its place when it is whole. Of several the first would be left alone, and a folder in the way.
+    const bool whole_or_nothing = !known.info.folder && filesToWrite(path, format, options).size() == 1;
+    const bool can_stop = whole_or_nothing || known.write_frames == nullptr;
+    stream.frames = Preparation::prepared(can_stop ? until_stopped : labels.frames, preparation);
     if (known.write_frames) {
         known.write_frames(stream, path, withValidNames(options), report);
     } else {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -118,8 +119,10 @@ std::vector<ExportFile> filesToWrite(const std::filesystem::path& path, const st
 ExportReport writeLabels(LabelFile labels, const std::filesystem::path& path, const std::string& format,
                          const ExportOptions& options = {});
 /// The same for labels frame by frame, which are gone through several times. Formats of one text with a line a box hold
-/// no more than a frame of them; CVAT, which goes by object, some 50 bytes a box; the others hold all.
+/// no more than a frame of them; CVAT, which goes by object, some 50 bytes a box; the others hold all. Throws
+/// Error(output) when it was stopped before the first file was in its place, which leaves nothing behind; later, what
+/// was begun is completed.
 ExportReport writeLabels(const LabelStream& labels, const std::filesystem::path& path, const std::string& format,
-                         const ExportOptions& options = {});
+                         const ExportOptions& options = {}, const std::stop_token& stop = {});
 
 }  // namespace eyrie

@@ -4,13 +4,11 @@
 #include <array>
 #include <cmath>
 
+#include "core/flow_limits.h"
+
 namespace eyrie {
 namespace {
 
-constexpr double kMostFlow = 4;  ///< px/frame, and the rest as in tracking/finishing/track_score.cpp
-constexpr double kMostRatio = 1.5;
-constexpr double kSticksRatio = 1.15;
-constexpr double kFlowNoise = 0.05;  ///< px/frame that registration may err by
 constexpr double kMostDecision = 3;  ///< of the classifier
 constexpr double kMostSupport = 3;   ///< vectors per vector expected
 
@@ -36,7 +34,7 @@ std::array<double, kDetectionFigures> figuresOf(const Detection& detection, cons
             std::log1p(static_cast<double>(detection.vectors.size())),
             flow,
             flow * against,
-            flow * std::min(ratio, kMostRatio),
+            flow * std::min(ratio, kMostFlowRatio),
             flow * whole};
 }
 

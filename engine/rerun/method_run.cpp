@@ -7,6 +7,7 @@
 #include "chain/chain.h"
 #include "chain/recording/classified_vehicles.h"
 #include "core/error.h"
+#include "core/labels/result_box.h"
 #include "core/values/stopwatch.h"
 #include "detection/sliding_window/global_sliding_window.h"
 #include "detection/sliding_window/model_location.h"
@@ -63,14 +64,7 @@ class Method {
         for (const auto& [frame, state] :
              finishTracks(states_, motions, variant_.options.finishing, scale_,
                           {vectorsIn(vectors), classifiedVehicles(variant_.options, vehiclesIn(vehicles_))})) {
-            BoxRecord record;
-            record.frame = frame;
-            record.id = state.id;
-            record.box = state.box;
-            record.score = state.score;
-            record.velocity = state.velocity;
-            record.origin = state.origin;
-            result_.tracks[frame].push_back(record);
+            result_.tracks[frame].push_back(boxOf(frame, state));
         }
         nameClasses(result_.tracks, scale_, variant_.options.classes);
         for (std::size_t stage = 0; stage < result_.median_ms.size() && !times_.empty(); ++stage) {
@@ -87,12 +81,7 @@ class Method {
     void keep(const FrameResult& found) {
         for (const Detection& detection : found.detections) {
             if (detection.rejection != Rejection::none) continue;
-            BoxRecord record;
-            record.frame = found.motion.frame;
-            record.box = detection.box;
-            record.score = shownScore(detection);
-            record.velocity = detection.velocity;
-            result_.detections[record.frame].push_back(record);
+            result_.detections[found.motion.frame].push_back(boxOf(found.motion.frame, detection));
         }
         for (const TrackState& state : found.tracks) states_.emplace_back(found.motion.frame, state);
         vehicles_[found.motion.frame] = vehiclesOf(found.detections);

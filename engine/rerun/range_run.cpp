@@ -7,6 +7,7 @@
 #include "chain/chain.h"
 #include "chain/parameter_stage.h"
 #include "chain/recording/classified_vehicles.h"
+#include "core/labels/result_box.h"
 #include "tracking/finishing/track_finishing.h"
 
 namespace eyrie {
@@ -99,16 +100,7 @@ std::optional<RangeResult> runRange(const ReplaySource& source, const ChainOptio
 BoxesByFrame trackBoxesOf(const RangeResult& result) {
     BoxesByFrame boxes;
     for (const auto& [frame, found] : result.frames) {
-        for (const TrackState& state : found->tracks) {
-            BoxRecord record;
-            record.frame = frame;
-            record.id = state.id;
-            record.box = state.box;
-            record.score = state.score;
-            record.velocity = state.velocity;
-            record.origin = state.origin;
-            boxes[frame].push_back(std::move(record));
-        }
+        for (const TrackState& state : found->tracks) boxes[frame].push_back(boxOf(frame, state));
     }
     nameClasses(boxes, result.scale, result.classes);
     return boxes;
@@ -118,13 +110,7 @@ BoxesByFrame detectionBoxesOf(const RangeResult& result) {
     BoxesByFrame boxes;
     for (const auto& [frame, found] : result.frames) {
         for (const Detection& detection : found->detections) {
-            if (detection.rejection != Rejection::none) continue;
-            BoxRecord record;
-            record.frame = frame;
-            record.box = detection.box;
-            record.score = shownScore(detection);
-            record.velocity = detection.velocity;
-            boxes[frame].push_back(std::move(record));
+            if (detection.rejection == Rejection::none) boxes[frame].push_back(boxOf(frame, detection));
         }
     }
     return boxes;

@@ -14,6 +14,7 @@
 #include "chain/recording/classified_vehicles.h"
 #include "chain/scale_estimation.h"
 #include "core/error.h"
+#include "core/labels/result_box.h"
 #include "detection/detector_factory.h"
 #include "detection/roi_cutter.h"
 
@@ -27,32 +28,12 @@ void leaveIf(const std::stop_token& stop) {
     if (stop.stop_requested()) throw Stopped{};
 }
 
-BoxRecord recordOf(FrameIndex frame, const Detection& detection) {
-    BoxRecord record;
-    record.frame = frame;
-    record.box = detection.box;
-    record.score = shownScore(detection);
-    record.velocity = detection.velocity;
-    return record;
-}
-
-BoxRecord recordOf(FrameIndex frame, const TrackState& state) {
-    BoxRecord record;
-    record.frame = frame;
-    record.id = state.id;
-    record.box = state.box;
-    record.score = state.score;
-    record.velocity = state.velocity;
-    record.origin = state.origin;
-    return record;
-}
-
 BoxesByFrame keptBoxes(const std::vector<FrameMotion>& motion, const std::vector<std::vector<Detection>>& detections) {
     BoxesByFrame boxes;
     for (std::size_t i = 0; i < detections.size(); ++i) {
         for (const Detection& detection : detections[i]) {
             if (detection.rejection == Rejection::none)
-                boxes[motion[i].frame].push_back(recordOf(motion[i].frame, detection));
+                boxes[motion[i].frame].push_back(boxOf(motion[i].frame, detection));
         }
     }
     return boxes;
@@ -335,7 +316,7 @@ std::shared_ptr<const BoxesByFrame> StageCache::tracks(const Point& point, const
         for (const auto& [frame, state] :
              finishTracks(states, summariesOf(motion), point.options.finishing, point.scale,
                           {vectors_at, classifiedVehicles(point.options, vehicles_at)}))
-            (*boxes)[frame].push_back(recordOf(frame, state));
+            (*boxes)[frame].push_back(boxOf(frame, state));
         nameClasses(*boxes, point.scale, point.options.classes);
         return boxes;
     });

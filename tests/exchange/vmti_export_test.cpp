@@ -154,6 +154,22 @@ TEST_F(VmtiExport, EveryFrameOfTheTracksHasASetAtTheTimeOfItsPicture) {
     }
 }
 
+TEST_F(VmtiExport, TheVideoIsCopiedWhileTheTracksAreReadSoThatNothingPilesUp) {
+    film("film.ts");
+    const auto source = openSource(video_, {.index_folder = folder_ / "index"});
+    LabelStream labels = car();
+    double copied = 0;
+    double copied_at_last_frame = 0;
+    labels.frames = [&, all = labels.frames](const FrameVisitor& visit) {
+        all([&](FrameIndex frame, const std::vector<LabelBox>& boxes) {
+            visit(frame, boxes);
+            copied_at_last_frame = copied;
+        });
+    };
+    writeVmti(labels, *source, out_, [&](double share) { copied = share; });
+    EXPECT_GT(copied_at_last_frame, 0);
+}
+
 TEST_F(VmtiExport, PicturesAreCopiedToTheBit) {
     film("film.ts");
     copy(car());

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "core/error.h"
+#include "core/values/last_frame.h"
 #include "store/runs/result_writer.h"
 #include "store/samples.h"
 #include "support/temporary_folder.h"
@@ -16,9 +17,9 @@ namespace eyrie::killed_run_test {
 namespace {
 
 /// Writes frames until it is killed, and tells the pipe of each that was written.
-[[noreturn]] void writeUntilKilled(const std::filesystem::path& path, int pipe_end) {
+[[noreturn]] void writeUntilKilled(const std::filesystem::path& path, const RunRecord& run, int pipe_end) {
     try {
-        ResultWriter writer(path, test::sampleRun(), {});
+        ResultWriter writer(path, run, {});
         for (int frame = 0;; ++frame) {
             writer.write(test::sampleFrame(frame));
             const char message = 1;
@@ -30,13 +31,14 @@ namespace {
 }
 
 /// Starts a writer and kills it a moment after it has reported `frames` frames; answers how many it reported.
-int killAfter(const std::filesystem::path& path, int frames, std::chrono::microseconds moment) {
+int killAfter(const std::filesystem::path& path, int frames, std::chrono::microseconds moment,
+              const RunRecord& run = test::sampleRun()) {
     int ends[2];
     if (pipe(ends) != 0) return -1;
     const pid_t child = fork();
     if (child == 0) {
         close(ends[0]);
-        writeUntilKilled(path, ends[1]);
+        writeUntilKilled(path, run, ends[1]);
     }
     close(ends[1]);
     int reported = 0;
@@ -80,6 +82,48 @@ TEST(KilledRun, KeepsEveryWrittenFrameWhole) {
         const auto later = store.trackStatesUpTo(run.id, 1'000'000, 1'000'000 - run.frames_done + 1);
         EXPECT_TRUE(later.empty()) << "states of a frame that is not there";
     }
+}
+
+/// As a live source gives it: nobody knows before when it ends.
+RunRecord runWithoutEnd() {
+    RunRecord run = test::sampleRun();
+    run.sequence.frame_count = kLastFrame + 1;
+    run.last_frame = kLastFrame;
+    return run;
+}
+
+TEST(KilledRun, WithoutAPlannedEndEndsAtItsLastFrame) {
+    std::mt19937 dice(12);
+    for (int round = 1; round <= 6; ++round) {
+        const test::TemporaryFolder folder;
+        const auto path = folder / "clip.eyrie";
+        ProjectFile::create(path);
+        const int wanted = 1 + static_cast<int>(dice() % 20);
+        ASSERT_GE(killAfter(path, wanted, std::chrono::microseconds(dice() % 4000), runWithoutEnd()), wanted);
+        ProjectFile project = ProjectFile::open(path);
+        const RunRecord run = RunStore(project).runs().back();
+        ASSERT_GE(run.frames_done, wanted);
+        EXPECT_EQ(run.last_frame, run.frames_done - 1);
+        EXPECT_EQ(run.sequence.frame_count, run.frames_done);
+    }
+}
+
+TEST(WorkingRun, WithoutAPlannedEndReachesAsFarAsItsFramesAtAnyMoment) {
+    const test::TemporaryFolder folder;
+    const auto path = folder / "clip.eyrie";
+    ProjectFile project = ProjectFile::create(path);
+    const RunStore store(project);
+    ResultWriter writer(path, runWithoutEnd(), {});
+    for (int frame = 0; frame < 3; ++frame) {
+        writer.write(test::sampleFrame(frame));
+        const RunRecord run = store.run(writer.runId()).value();
+        EXPECT_EQ(run.last_frame, frame);
+        EXPECT_EQ(run.sequence.frame_count, frame + 1);
+    }
+    writer.finish(RunState::finished, "");
+    ResultWriter planned(path, test::sampleRun(), {});
+    planned.write(test::sampleFrame(0));
+    EXPECT_EQ(store.run(planned.runId())->last_frame, test::sampleRun().last_frame) << "what is planned stays";
 }
 
 TEST(WorkingRun, IsReadByOthersMeanwhile) {

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/error.h"
 #include "widgets/wiring.h"
 
 namespace eyrie::ui {
@@ -51,7 +52,7 @@ ExportDialog::ExportDialog(ExportSource source, QWidget* parent)
     form_->addRow(tr("To"), place);
     form_->addRow(clip_);
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close);
-    close_ = buttons->button(QDialogButtonBox::Close);
+    QPushButton* close = buttons->button(QDialogButtonBox::Close);
     export_ = buttons->addButton(tr("Export"), QDialogButtonBox::ActionRole);
     export_->setDefault(true);
     auto* layout = new QVBoxLayout(this);
@@ -60,8 +61,8 @@ ExportDialog::ExportDialog(ExportSource source, QWidget* parent)
     layout->addWidget(buttons);
     onEdited(
         this, [this] { showFormat(); }, format_);
-    bindCommands(
-        this, {{choose, [this] { browse(); }}, {export_, [this] { startExport(); }}, {close_, [this] { reject(); }}});
+    bindCommands(this,
+                 {{choose, [this] { browse(); }}, {export_, [this] { startExport(); }}, {close, [this] { reject(); }}});
     form_->setRowVisible(format_, source_.offers.size() > 1);
     showFormat();
 }
@@ -110,9 +111,7 @@ QString ExportDialog::report() const {
 }
 
 void ExportDialog::showWorking(bool working) {
-    export_->setText(working && offer().can_stop ? tr("Stop") : tr("Export"));
-    for (QWidget* each : {static_cast<QWidget*>(export_), static_cast<QWidget*>(close_)})
-        each->setEnabled(!working || offer().can_stop);
+    export_->setText(working ? tr("Stop") : tr("Export"));
     for (QWidget* each : {static_cast<QWidget*>(format_), static_cast<QWidget*>(target_)}) each->setEnabled(!working);
 }
 
@@ -123,14 +122,9 @@ void ExportDialog::showEnd(const QString& text, bool fine) {
     emit finishedExport(fine);
 }
 
-void ExportDialog::reject() {
-    // What takes moments is waited for by the person, not by the window.
-    if (!writing_ || offer().can_stop) QDialog::reject();
-}
-
 void ExportDialog::startExport() {
     if (writing_) {
-        if (offer().can_stop) writing_->request_stop();
+        writing_->request_stop();
         return;
     }
     if (target_->text().trimmed().isEmpty()) browse();
@@ -158,7 +152,12 @@ void ExportDialog::startExport() {
             if (std::exchange(shown, percent) == percent) return;
             task.tell([this, percent] { text_->setPlainText(tr("Writing… %1 %").arg(percent)); });
         };
-        const std::optional<QString> text = write(progress, task.stop());
+        std::optional<QString> text;
+        try {
+            text = write(progress, task.stop());
+        } catch (const Error&) {
+            if (!task.stop().stop_requested()) throw;  // who stops it knows why it ends
+        }
         task.tell([this, text] { showEnd(text.value_or(tr("Stopped; nothing was written.")), text.has_value()); });
     };
     writing_ = query_.post(work, [this](const QString& failure) { showEnd(failure, false); });

@@ -30,7 +30,6 @@ struct ExportOffer {
     QString holds;              ///< what it carries, and what it does not; may be empty
     bool asks_columns = false;  ///< a table whose columns a person names
     bool clips = false;         ///< boxes can be clipped to the image
-    bool can_stop = false;      ///< while it is written; else it takes moments
 };
 
 /// What a person chose to have written.
@@ -44,7 +43,7 @@ struct ExportWish {
 /// Tells how far the writing is, 0 … 1. May be called on any thread.
 using ExportProgress = std::function<void(double)>;
 
-/// Writes, and answers what to tell; nothing when it was stopped. Throws what has a message.
+/// Writes, and answers what to tell; nothing when it was stopped, which may also be thrown. Throws what has a message.
 using ExportWork = std::function<std::optional<QString>(const ExportProgress&, const std::stop_token&)>;
 
 /// Something that can be written to files.
@@ -60,7 +59,7 @@ struct ExportSource {
 };
 
 /// Asks in which format and where to write something, writes it in the background, and tells what was written or lost.
-/// Nothing is replaced without consent. Closing it stops the writing, or waits until what takes moments is written.
+/// Nothing is replaced without consent. Closing it stops the writing.
 class ExportDialog : public QDialog {
     Q_OBJECT
 
@@ -76,7 +75,6 @@ class ExportDialog : public QDialog {
     void startExport();
     /// What was told last.
     QString report() const;
-    void reject() override;
 
  signals:
     void finishedExport(bool fine);
@@ -97,7 +95,6 @@ class ExportDialog : public QDialog {
     QCheckBox* clip_;
     QPlainTextEdit* text_;
     QPushButton* export_;
-    QPushButton* close_;
     QString agreed_;  ///< the target that somebody agreed to replace
     std::optional<std::stop_source> writing_;
     BackgroundQuery query_;  ///< last: stops before the rest goes

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "cli/arguments/common_options.h"
 #include "cli/arguments/earlier_state.h"
 #include "cli/arguments/preset_arguments.h"
 #include "cli/project_runs.h"
@@ -22,7 +23,7 @@ void checkEventNumber(int number, const ReviewedRun& reviewed) {
 
 void EventArguments::addRunTo(CLI::App& command) {
     command.add_option("--project", project, "Project that holds the run")->required();
-    command.add_option("--run", run, "Number of the run (default: the last)");
+    addRunNumber(command, run);
 }
 
 void addUncorrected(CLI::App& command, bool& uncorrected) {

@@ -29,9 +29,6 @@ struct VideoArguments {
 
 /// What --start says: µs since 1970-01-01; nothing for an empty text. Throws Error(parameter).
 std::optional<std::int64_t> startOf(const std::string& text);
-inline constexpr const char* kStartHelp =
-    "When the video begins, UTC, e.g. 2026-11-21T08:00:00Z (default: as the project keeps it, or by its "
-    "metadata, or by the creation time of its file)";
 
 /// Throws Error(parameter) unless `gsd` is a usable number of metres per pixel, and warns of one with which nothing can
 /// be found.

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "cli/arguments/common_options.h"
 #include "cli/command.h"
 #include "cli/interrupt.h"
 #include "cli/reports/console_progress.h"
@@ -131,7 +132,7 @@ void addBackupsCommand(CLI::App& app, int&) {
     CLI::App* command =
         app.add_subcommand("backups", "List the earlier states of a project, and how they differ from the present one");
     command->add_option("PROJECT", arguments->project, "Project (.eyrie), which may have been deleted")->required();
-    command->add_flag("--json", arguments->json, "Print JSON");
+    addJson(*command, arguments->json);
     command->callback([arguments] { listEarlierStates(arguments->project, arguments->json); });
 }
 

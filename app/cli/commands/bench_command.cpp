@@ -11,6 +11,7 @@
 #include <opencv2/video/tracking.hpp>
 
 #include "chain/chain.h"
+#include "cli/arguments/common_options.h"
 #include "cli/arguments/input.h"
 #include "cli/arguments/preset_arguments.h"
 #include "cli/arguments/video_arguments.h"
@@ -303,7 +304,7 @@ void addBenchCommand(CLI::App& app, int&) {
         ->capture_default_str()
         ->check(CLI::Range(100, 50000));
     arguments->preset.addTo(*command);
-    command->add_flag("--json", arguments->json, "Print JSON");
+    addJson(*command, arguments->json);
     command->callback([arguments] { bench(*arguments); });
 }
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "cli/arguments/common_options.h"
 #include "cli/command.h"
 #include "cli/interrupt.h"
 #include "core/error.h"
@@ -97,7 +98,7 @@ void addCheckCommand(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("check", "Check a project for damage, and save what can be read of it");
     command->add_option("PROJECT", arguments->project, "Project (.eyrie); it is only read")->required();
     command->add_option("--repair", arguments->repair, "Write all that can be read into this new project");
-    command->add_flag("--json", arguments->json, "Print JSON");
+    addJson(*command, arguments->json);
     command->callback([arguments, &exit_code] { exit_code = check(*arguments); });
 }
 

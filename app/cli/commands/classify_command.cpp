@@ -3,6 +3,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cli/arguments/common_options.h"
 #include "cli/arguments/output_arguments.h"
 #include "cli/command.h"
 #include "cli/reports/classification_report.h"
@@ -59,7 +60,7 @@ void addClassifyCommand(CLI::App& app, int& exit_code) {
     command->add_option("--patches", arguments->patches, "Folder with pos.png, neg.png and patches.csv")->required();
     command->add_option("--roc", arguments->roc, "Also write the ROC curve to this CSV file");
     arguments->outputs.addTo(*command);
-    command->add_flag("--json", arguments->json, "Print JSON");
+    addJson(*command, arguments->json);
     command->callback([arguments, &exit_code] { exit_code = classifyPatches(*arguments); });
 }
 

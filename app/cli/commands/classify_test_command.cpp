@@ -6,6 +6,7 @@
 #include <memory>
 #include <set>
 
+#include "cli/arguments/common_options.h"
 #include "cli/arguments/output_arguments.h"
 #include "cli/arguments/sample_sources.h"
 #include "cli/command.h"
@@ -205,8 +206,8 @@ void addClassifyTestCommand(CLI::App& app, int& exit_code) {
         ->check(CLI::Range(0, 1000000000));
     command->add_option("--out", arguments->out, "Folder for the ROC curves, a CSV file each");
     arguments->outputs.addTo(*command);
-    command->add_flag("--json", arguments->json, "Print JSON");
-    command->add_flag("--quiet", arguments->quiet, "No progress");
+    addJson(*command, arguments->json);
+    addQuiet(*command, arguments->quiet);
     command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "cli/arguments/common_options.h"
 #include "cli/arguments/earlier_state.h"
 #include "cli/arguments/event_arguments.h"
 #include "cli/arguments/input.h"
@@ -104,7 +105,7 @@ void addClipCommand(CLI::App& app, int& exit_code) {
     arguments->events.addSearchTo(*command);
     command->add_option("--out", arguments->out, "Video to write (mp4)")->required();
     arguments->outputs.addTo(*command);
-    command->add_flag("--quiet", arguments->quiet, "No progress");
+    addQuiet(*command, arguments->quiet);
     command->callback([arguments, &exit_code] { exit_code = makeClip(*arguments); });
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "chain/scale_estimation.h"
+#include "cli/arguments/common_options.h"
 #include "cli/arguments/earlier_state.h"
 #include "cli/arguments/evaluation_arguments.h"
 #include "cli/arguments/input.h"
@@ -273,8 +274,8 @@ void addCompareCommand(CLI::App& app, int& exit_code) {
                      "Also print what the thesis publishes for this sequence: seq1, seq2, egtest01")
         ->check(CLI::IsMember(publishedSequences()));
     arguments->outputs.addTo(*command);
-    command->add_flag("--json", arguments->json, "Print JSON");
-    command->add_flag("--quiet", arguments->quiet, "No progress");
+    addJson(*command, arguments->json);
+    addQuiet(*command, arguments->quiet);
     command->callback([arguments, &exit_code] {
         takePeerSettings(*arguments);
         exit_code = compare(*arguments);

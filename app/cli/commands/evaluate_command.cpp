@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "cli/arguments/common_options.h"
 #include "cli/arguments/described_sequence.h"
 #include "cli/arguments/earlier_state.h"
 #include "cli/arguments/evaluation_arguments.h"
@@ -167,7 +168,7 @@ void addEvaluateCommand(CLI::App& app, int& exit_code) {
         "--result", arguments->result, "Boxes to measure: Eyrie's CSV, MOTChallenge text, or what else import reads");
     CLI::Option* project =
         command->add_option("--project", arguments->project, "Measure a run of this project instead")->excludes(result);
-    command->add_option("--run", arguments->run, "Number of the run (default: the last)")->needs(project);
+    addRunNumber(*command, arguments->run)->needs(project);
     command->add_flag("--detections", arguments->detections, "Measure the run's detections instead of its tracks")
         ->needs(project);
     arguments->evaluation.addTo(*command);
@@ -187,7 +188,7 @@ void addEvaluateCommand(CLI::App& app, int& exit_code) {
                         "Write precision, recall and f-score at the first T_ov over the score that a box must have to "
                         "this CSV file; of a run also for tracks that only their score (finishing.min_score) kept out");
     arguments->outputs.addTo(*command);
-    command->add_flag("--json", arguments->json, "Print JSON");
+    addJson(*command, arguments->json);
     command->callback([arguments, &exit_code] {
         if (arguments->result.empty() == arguments->project.empty()) {
             throw Error(ErrorKind::parameter,

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "cli/arguments/common_options.h"
 #include "cli/arguments/earlier_state.h"
 #include "cli/arguments/event_arguments.h"
 #include "cli/arguments/output_arguments.h"
@@ -127,7 +128,7 @@ void addEventsCommand(CLI::App& app, int& exit_code) {
             ->type_name("TRACK");
     for (const char* of_events : {"--kind", "--verdict", "--zone"}) like->excludes(command->get_option(of_events));
     command->add_option("--csv", arguments->csv, "Write what is listed as a table, too");
-    like->excludes(command->add_option("--start", arguments->start, kStartHelp));
+    like->excludes(addStart(*command, arguments->start));
     arguments->outputs.addTo(*command);
     command->callback([arguments, like, &exit_code] {
         like->count() > 0 ? tellLikeTracks(*arguments) : tellEvents(*arguments);

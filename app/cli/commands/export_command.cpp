@@ -3,6 +3,7 @@
 #include <memory>
 #include <utility>
 
+#include "cli/arguments/common_options.h"
 #include "cli/arguments/described_sequence.h"
 #include "cli/arguments/earlier_state.h"
 #include "cli/arguments/event_arguments.h"
@@ -86,15 +87,9 @@ void exportAnnotations(const ExportArguments& arguments, ProjectFile& project) {
 }
 
 /// Tracks of a run in a copy of its video.
-void exportVmti(const ExportArguments& arguments, ProjectFile& project, const RunRecord& run,
-                const CorrectedTracks& corrected) {
-    const RunStore store(project);
-    arguments.outputs.check({{arguments.out, FileKind::video}}, {run.sequence.path, arguments.project});
-    const InterruptGuard interrupt;
-    const auto video = openInput(run.sequence.path, 0, interrupt.token(), run.sequence.frame_rate_hz);
-    LabelStream labels = labelStreamOf(store, run, corrected);
-    addWorld(labels, project, run, video.get(), startOf(arguments.start), interrupt.token());
-    const VmtiReport report = writeVmti(labels, *video, arguments.out, {}, interrupt.token());
+void exportVmti(const ExportArguments& arguments, const RunRecord& run, const LabelStream& labels,
+                const FrameSource& video, const std::stop_token& stop) {
+    const VmtiReport report = writeVmti(labels, video, arguments.out, {}, stop);
     std::printf("%s: a copy of %s with %d VMTI sets of %d targets\n", arguments.out.c_str(), run.sequence.path.c_str(),
                 report.frames, report.targets);
     for (const std::string& remark : remarksOn(report, labels.about.world->no_place))
@@ -108,19 +103,14 @@ void exportRun(const ExportArguments& arguments, ProjectFile& project) {
     const bool own = arguments.detections || arguments.uncorrected;
     const CorrectedTracks corrected = own ? CorrectedTracks() : readCorrectedTracks(project, run);
     const Snapshot unchanging(project);
-    if (arguments.format == kVmtiFormat) return exportVmti(arguments, project, run, corrected);
+    const bool as_video = arguments.format == kVmtiFormat;
+    if (as_video) arguments.outputs.check({{arguments.out, FileKind::video}}, {run.sequence.path, arguments.project});
     LabelStream labels = arguments.detections ? labelStreamOf(store, run, true) : labelStreamOf(store, run, corrected);
     const InterruptGuard interrupt;
-    std::unique_ptr<FrameSource> pixels;
-    if (tellsWorld(arguments.format)) {
-        try {
-            pixels = openInput(run.sequence.path, 0, interrupt.token(), run.sequence.frame_rate_hz);
-        } catch (const Error& error) {
-            // Boxes can be written without it; what needs times or places on the earth says so.
-            if (interrupt.token().stop_requested()) throw;
-        }
-        addWorld(labels, project, run, pixels.get(), startOf(arguments.start), interrupt.token());
-    }
+    const auto open = [&] { return openInput(run.sequence.path, 0, interrupt.token(), run.sequence.frame_rate_hz); };
+    const auto video =
+        addWorld(arguments.format, labels, project, run, open, startOf(arguments.start), interrupt.token());
+    if (as_video) return exportVmti(arguments, run, labels, *video, interrupt.token());
     writeAndTell(arguments, labels, labels.about, run.sequence.path);
 }
 
@@ -154,9 +144,8 @@ void addExportCommand(CLI::App& app, int& exit_code) {
             ->needs(project);
     addUncorrected(*command, arguments->uncorrected);
     command->get_option("--uncorrected")->needs(project)->excludes(labels)->excludes(detections);
-    command->add_option("--sequence", arguments->sequence, "Number of the project's video, where it has several")
-        ->needs(project);
-    command->add_option("--start", arguments->start, kStartHelp)->needs(project);
+    addSequenceNumber(*command, arguments->sequence)->needs(project);
+    addStart(*command, arguments->start)->needs(project);
     command->add_option("--from", arguments->from, "File or folder of labels to convert")->excludes(project);
     addLabelOptions(*command, arguments->from_labels, "--from-format", "--from-columns");
     command->add_option("--format", arguments->format, "One of " + formatNames(true) + ", " + kVmtiFormat)->required();

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "cli/arguments/common_options.h"
 #include "cli/arguments/earlier_state.h"
 #include "cli/command.h"
 #include "cli/interrupt.h"
@@ -104,7 +105,7 @@ void addGeoreferenceCommand(CLI::App& app, int& exit_code) {
         command->add_option("--points", arguments->points,
                             "Table frame,x,y,latitude,longitude of at least four points; replaces the earlier ones");
     command->add_flag("--clear", arguments->clear, "Forget the points")->excludes(points);
-    command->add_option("--sequence", arguments->sequence, "Number of the project's video, where it has several");
+    addSequenceNumber(*command, arguments->sequence);
     command->callback([arguments, &exit_code] { exit_code = georeference(*arguments); });
 }
 

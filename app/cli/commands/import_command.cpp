@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "cli/arguments/common_options.h"
 #include "cli/arguments/earlier_state.h"
 #include "cli/arguments/input.h"
 #include "cli/arguments/label_arguments.h"
@@ -166,8 +167,7 @@ void addImportCommand(CLI::App& app, int& exit_code) {
     addLabelOptions(*command, arguments->labels, "--format", "--columns");
     command->add_option("--sequence-name", arguments->labels.sequence, "Video to take from a KWCOCO file with several");
     CLI::Option* project = command->add_option("--project", arguments->project, "Project that gets the labels");
-    command->add_option("--sequence", arguments->sequence, "Number of the project's video, where it has several")
-        ->needs(project);
+    addSequenceNumber(*command, arguments->sequence)->needs(project);
     command->add_option("--video", arguments->video, "Video that the labels belong to, for a project that has none yet")
         ->needs(project);
     command

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/arguments/common_options.h"
 #include "cli/arguments/earlier_state.h"
 #include "cli/arguments/input.h"
 #include "cli/arguments/output_arguments.h"
@@ -194,7 +195,7 @@ void addInfoCommand(CLI::App& app, int&) {
     command->add_option("--list", arguments->list,
                         "Write the list of several video files (*.parts), which every command takes for a video");
     arguments->outputs.addTo(*command);
-    command->add_flag("--json", arguments->json, "Print JSON");
+    addJson(*command, arguments->json);
     command->callback([arguments] {
         const bool is_project = arguments->files.size() == 1 && isProject(arguments->files.front());
         const Json facts = is_project ? projectFacts(arguments->files.front()) : videoFacts(*arguments);

@@ -3,6 +3,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cli/arguments/common_options.h"
 #include "cli/arguments/preset_arguments.h"
 #include "cli/command.h"
 #include "events/event_options.h"
@@ -50,7 +51,7 @@ void addParamsCommand(CLI::App& app, int&) {
     const auto arguments = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand("params", "List every parameter with its value, range and meaning");
     arguments->preset.addTo(*command);
-    command->add_flag("--json", arguments->json, "Print JSON");
+    addJson(*command, arguments->json);
     command->callback([arguments] {
         ChainOptions options = arguments->preset.options();
         auto parameters = listParameters(describeOf(options));

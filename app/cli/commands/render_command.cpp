@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "cli/arguments/common_options.h"
 #include "cli/arguments/output_arguments.h"
 #include "cli/command.h"
 #include "cli/interrupt.h"
@@ -191,7 +192,7 @@ void addRenderCommand(CLI::App& app, int& exit_code) {
     command->add_flag("--upright", arguments->upright, "Ground truth with upright boxes, as the original egtest01 has");
     command->add_flag("--video", arguments->video, "Also write video.mp4");
     arguments->outputs.addTo(*command);
-    command->add_flag("--quiet", arguments->quiet, "No progress");
+    addQuiet(*command, arguments->quiet);
     command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }
 

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "cli/arguments/common_options.h"
 #include "cli/arguments/earlier_state.h"
 #include "cli/arguments/evaluation_arguments.h"
 #include "cli/arguments/event_arguments.h"
@@ -23,14 +24,12 @@ namespace {
 
 struct ReportArguments {
     EvaluationRequest request;
-    std::string project;
     bool of_events = false;
-    EventArguments events;
+    EventArguments events;  ///< and the run of either report
     std::vector<int> numbers;
     std::string start;
     GroundTruthArguments ground_truth;
     EvaluationArguments evaluation;
-    std::optional<int> run;
     std::optional<int> against;
     std::size_t chips = ReportOptions().chips;
     std::string out;
@@ -62,7 +61,6 @@ std::string digestOf(const std::string& video, const std::stop_token& stop) {
 /// Answers the exit code.
 int makeEventReport(const ReportArguments& arguments) {
     EventArguments events = arguments.events;
-    events.project = arguments.project;
     // Who names events has judged what goes into the report.
     if (events.verdicts.empty() && arguments.numbers.empty())
         events.verdicts = {nameOf(Judgement::relevant), nameOf(Judgement::unsure)};
@@ -71,9 +69,10 @@ int makeEventReport(const ReportArguments& arguments) {
     choice.numbers = arguments.numbers;
     const auto start = startOf(arguments.start);
     const InterruptGuard interrupt;
-    ProjectFile project = openForReading(arguments.project);
-    const RunRecord run = chosenRun(RunStore(project), arguments.project, arguments.run);
-    arguments.outputs.check({{arguments.out, FileKind::html}}, {arguments.project, events.zones, run.sequence.path});
+    ProjectFile project = openForReading(arguments.events.project);
+    const RunRecord run = chosenRun(RunStore(project), arguments.events.project, arguments.events.run);
+    arguments.outputs.check({{arguments.out, FileKind::html}},
+                            {arguments.events.project, events.zones, run.sequence.path});
     const std::unique_ptr<FrameSource> pixels = pixelsOf(run, "pictures", interrupt.token());
     ReviewReportInput input = gatherReviewReport(project, run, choice, pixels.get(), start, interrupt.token());
     events.tellZones(input.reviewed);
@@ -97,16 +96,16 @@ int makeEventReport(const ReportArguments& arguments) {
 }
 
 void makeReport(const ReportArguments& arguments) {
-    arguments.outputs.check({{arguments.out, FileKind::html}}, {arguments.project, arguments.ground_truth.file});
+    arguments.outputs.check({{arguments.out, FileKind::html}}, {arguments.events.project, arguments.ground_truth.file});
     EvaluationRequest request = arguments.request;
-    request.project = arguments.project;
+    request.project = arguments.events.project;
     request.truth = arguments.ground_truth.source();
     request.options = arguments.evaluation.options;
     {
-        ProjectFile project = openForReading(arguments.project);
+        ProjectFile project = openForReading(arguments.events.project);
         const RunStore store(project);
-        request.run_id = chosenRun(store, arguments.project, arguments.run).id;
-        if (arguments.against) chosenRun(store, arguments.project, arguments.against, "--against");
+        request.run_id = chosenRun(store, arguments.events.project, arguments.events.run).id;
+        if (arguments.against) chosenRun(store, arguments.events.project, arguments.against, "--against");
     }
     request.other_run = arguments.against;
     RunEvaluator evaluator;
@@ -131,8 +130,7 @@ void addReportCommand(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand(
         "report",
         "Write one HTML file about a run: its evaluation, with measures, curves and errors, or its events as judged");
-    command->add_option("--project", arguments->project, "Project that holds the run")->required();
-    command->add_option("--run", arguments->run, "Number of the run (default: the last)");
+    arguments->events.addRunTo(*command);
     arguments->ground_truth.addTo(*command, kLabelsOtherwise);
     command->add_option("--out", arguments->out, "HTML file to write")->required();
     command->add_option("--against", arguments->against,
@@ -150,7 +148,7 @@ void addReportCommand(CLI::App& app, int& exit_code) {
                      "Only these events, by the numbers that eyrie-cli events lists, whatever their verdict: 3,7,12")
         ->delimiter(',');
     arguments->events.addSearchTo(*command);
-    command->add_option("--start", arguments->start, kStartHelp);
+    addStart(*command, arguments->start);
     arguments->outputs.addTo(*command);
     command->callback([arguments, command, &exit_code] {
         const std::vector<const char*> of_events{"--kind", "--verdict",     "--event", "--zone",

@@ -8,6 +8,7 @@
 
 #include "chain/recording/run_resume.h"
 #include "chain/scale_estimation.h"
+#include "cli/arguments/common_options.h"
 #include "cli/arguments/earlier_state.h"
 #include "cli/arguments/input.h"
 #include "cli/arguments/output_arguments.h"
@@ -380,7 +381,7 @@ void addRunCommand(CLI::App& app, int& exit_code) {
         ->check(CLI::Range(0.5, 1e6))
         ->capture_default_str();
     arguments->outputs.addTo(*command);
-    command->add_flag("--quiet", arguments->quiet, "No progress");
+    addQuiet(*command, arguments->quiet);
     command->callback([arguments, command, &exit_code] {
         arguments->preset_given = command->count("--preset") + command->count("--set") > 0;
         arguments->live_given =

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "chain/recording/run_recorder.h"
+#include "cli/arguments/common_options.h"
 #include "cli/arguments/earlier_state.h"
 #include "cli/arguments/output_arguments.h"
 #include "cli/arguments/preset_arguments.h"
@@ -188,6 +189,14 @@ int sweep(const SweepArguments& arguments) {
     return whole ? exit_ok : exit_stopped;
 }
 
+void addBest(CLI::App& command, std::string& criterion) {
+    command.add_option("--best", criterion, "The measure that decides which point is best")->capture_default_str();
+}
+
+void addFiguresCsv(CLI::App& command, std::string& csv) {
+    command.add_option("--csv", csv, "Write all figures as CSV");
+}
+
 }  // namespace
 
 void addSweepCommand(CLI::App& app, int& exit_code) {
@@ -222,15 +231,14 @@ void addSweepCommand(CLI::App& app, int& exit_code) {
     command->add_option("--shard", arguments->shard, "Do only part I of N, written I/N; eyrie-cli merge joins them");
     command->add_flag("--resume", arguments->resume, "Resume a sweep that was stopped");
     command->add_flag("--yes", arguments->yes, "Start even with more than 10000 points");
-    command->add_option("--best", arguments->criterion, "The measure that decides which point is best")
-        ->capture_default_str();
+    addBest(*command, arguments->criterion);
     command->add_option("--of", arguments->of, "Judge detections or tracks (default: by the parameters)")
         ->check(CLI::IsMember({"detections", "tracks"}));
-    command->add_option("--csv", arguments->csv, "Write all figures as CSV");
+    addFiguresCsv(*command, arguments->csv);
     command->add_option("--save-preset", arguments->save_preset, "Write the parameters of the best point as a preset");
     arguments->outputs.addTo(*command);
-    command->add_flag("--json", arguments->json, "Print JSON");
-    command->add_flag("--quiet", arguments->quiet, "No progress");
+    addJson(*command, arguments->json);
+    addQuiet(*command, arguments->quiet);
     command->callback([arguments, command, &exit_code] {
         arguments->preset_given = command->count("--preset") > 0;
         exit_code = sweep(*arguments);
@@ -252,11 +260,10 @@ void addMergeCommand(CLI::App& app, int& exit_code) {
     command->add_option("files", arguments->files, "Project files written by sweep --shard")->required();
     command->add_option("--out", arguments->out, "Project file for the whole sweep, none of the parts")->required();
     command->add_flag("--add", arguments->add, "Add the sweep to --out where that project exists already");
-    command->add_option("--best", arguments->criterion, "The measure that decides which point is best")
-        ->capture_default_str();
-    command->add_option("--csv", arguments->csv, "Write all figures as CSV");
+    addBest(*command, arguments->criterion);
+    addFiguresCsv(*command, arguments->csv);
     arguments->outputs.addTo(*command);
-    command->add_flag("--json", arguments->json, "Print JSON");
+    addJson(*command, arguments->json);
     command->callback([arguments, &exit_code] {
         std::error_code ignored;
         const bool exists = std::filesystem::exists(arguments->out, ignored);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "cli/arguments/common_options.h"
 #include "cli/arguments/output_arguments.h"
 #include "cli/arguments/sample_sources.h"
 #include "cli/command.h"
@@ -192,7 +193,7 @@ void addTrainCommand(CLI::App& app, int& exit_code) {
     command->add_option("--note", arguments->note,
                         "Note kept in the model, such as the source and licence of the samples");
     arguments->outputs.addTo(*command);
-    command->add_flag("--quiet", arguments->quiet, "No progress");
+    addQuiet(*command, arguments->quiet);
     command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -20,7 +19,6 @@
 #include "io/tables/number_text.h"
 #include "metadata/metadata_scale.h"
 #include "store/backup/database_copy.h"
-#include "store/runs/run_end.h"
 
 namespace eyrie {
 namespace {
@@ -29,7 +27,6 @@ constexpr double kBehind = 0.5;      ///< share of the waiting frames from which
 constexpr double kInPace = 0.1;      ///< and below which the chain keeps pace again …
 constexpr double kPaceBefore_s = 2;  ///< … for so long, before all corners are taken again; twice as long every time
 constexpr double kFewer = 1.5;       ///< by which corners lie farther apart: less than half of them
-constexpr auto kEndEvery = std::chrono::seconds(2);
 
 /// A live source whose reader, the first half of the chain, is made lighter while it is behind. Reading happens on the
 /// thread of that half, so that it may be exchanged between two frames.
@@ -91,32 +88,17 @@ class LighterReading : public FrameSource {
     std::atomic<int> frames_read_{0};
 };
 
-/// Records, and tells the project how far the run has come. Keeps no states: a live source cannot be read again.
+/// Records without states: a live source cannot be read again.
 class LiveRecorder : public ChainObserver {
  public:
-    LiveRecorder(RunRecorder& recorder, const std::filesystem::path& project)
-        : recorder_(recorder), project_(ProjectFile::open(project)) {}
+    explicit LiveRecorder(RunRecorder& recorder) : recorder_(recorder) {}
     void onFrame(const std::shared_ptr<const FrameResult>& result, const Frame& frame) override {
         recorder_.onFrame(result, frame);
-        last_ = frame.index;
-        const auto now = std::chrono::steady_clock::now();
-        if (now - told_ < kEndEvery) return;
-        told_ = now;
-        tellEnd();
     }
     void onProgress(const RunProgress& progress) override { recorder_.onProgress(progress); }
-    void tellEnd() {
-        if (last_ >= 0) setEnd(project_, recorder_.runId(), last_);
-    }
-    void tellRemark(const std::string& remark) {
-        if (!remark.empty()) setRemark(project_, recorder_.runId(), remark);
-    }
 
  private:
     RunRecorder& recorder_;
-    ProjectFile project_;
-    FrameIndex last_ = -1;
-    std::chrono::steady_clock::time_point told_{};
 };
 
 /// Takes a project away again that was made for a run which then did not begin.
@@ -250,7 +232,7 @@ LiveRunResult LiveRun::run(ChainObserver* also, const Begun& begun) {
     planned.scale_basis = chosen.basis;
     planned.name = request.name.empty() ? shownAddress(request.address) : request.name;
     RunRecorder recorder(request.project, planned, request.options, also, request.details);
-    LiveRecorder live(recorder, request.project);
+    LiveRecorder live(recorder);
     planned.id = recorder.runId();
     if (begun) begun(planned);
     const RunStart start{std::make_shared<ChainProgress>(request.options, scale), 0};
@@ -263,9 +245,10 @@ LiveRunResult LiveRun::run(ChainObserver* also, const Begun& begun) {
     summary.frames_total = summary.frames_done;
     result.load = status().load;
     summary.median_ms[static_cast<std::size_t>(Stage::store)] = recorder.medianStoreMs();
-    recorder.finish(summary);
-    live.tellEnd();
-    if (summary.outcome == RunOutcome::finished) live.tellRemark(result.load.text());
+    RunSummary stored = summary;
+    if (const std::string load = result.load.text(); summary.outcome == RunOutcome::finished && !load.empty())
+        stored.message = load;
+    recorder.finish(stored);
     ProjectFile file = ProjectFile::open(request.project, ProjectFile::Mode::read_only);
     result.record = RunStore(file).run(recorder.runId()).value();
     return result;

@@ -15,11 +15,6 @@ constexpr std::int64_t kHeldBack_us = 200'000;      ///< how long a packet may w
 
 }  // namespace
 
-void LiveRecording::CloseRecording::operator()(AVFormatContext* context) const {
-    if (context->pb != nullptr) avio_closep(&context->pb);
-    avformat_free_context(context);
-}
-
 LiveRecording::LiveRecording(std::filesystem::path path) : path_(std::move(path)) {}
 
 LiveRecording::~LiveRecording() {
@@ -45,7 +40,7 @@ void LiveRecording::open(const AVFormatContext& demuxer, int video) {
     AVFormatContext* raw = nullptr;
     const std::string url = "file:" + path_.string();
     if (const int made = avformat_alloc_output_context2(&raw, nullptr, "mpegts", url.c_str()); made < 0) fail(made);
-    std::unique_ptr<AVFormatContext, CloseRecording> muxer(raw);
+    libav::Muxer muxer(raw);
     muxer->flags |= AVFMT_FLAG_FLUSH_PACKETS;
     muxer->max_interleave_delta = kHeldBack_us;
     for (unsigned i = 0; i < demuxer.nb_streams; ++i) {

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -36,17 +35,14 @@ class LiveRecording {
     void discard();
 
  private:
-    struct CloseRecording {
-        void operator()(AVFormatContext* context) const;
-    };
     [[noreturn]] void fail(int reason) const;
     void open(const AVFormatContext& demuxer, int video);
     void shift(AVPacket& packet, AVRational tick, std::int64_t gap_us);
 
     std::filesystem::path path_;
-    std::unique_ptr<AVFormatContext, CloseRecording> muxer_;  ///< null before and after it is written
-    std::vector<int> places_;                                 ///< of the present connection's tracks; −1: nowhere
-    int video_ = -1;                                          ///< of the present connection
+    libav::Muxer muxer_;       ///< null before and after it is written
+    std::vector<int> places_;  ///< of the present connection's tracks; −1: nowhere
+    int video_ = -1;           ///< of the present connection
     bool waits_for_key_ = true;
     std::optional<std::int64_t> shift_us_;  ///< from the connection's clock to that of the recording
     std::int64_t last_us_ = 0;              ///< decoding time of the last picture on the recording's clock

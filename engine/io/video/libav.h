@@ -23,7 +23,16 @@ struct Free {
     void operator()(SwsContext* context) const { sws_freeContext(context); }
 };
 
+/// Of what is written: its file is closed, too.
+struct FreeOutput {
+    void operator()(AVFormatContext* context) const {
+        if (context->pb != nullptr) avio_closep(&context->pb);
+        avformat_free_context(context);
+    }
+};
+
 using Demuxer = std::unique_ptr<AVFormatContext, Free>;
+using Muxer = std::unique_ptr<AVFormatContext, FreeOutput>;
 using Codec = std::unique_ptr<AVCodecContext, Free>;
 using Picture = std::unique_ptr<AVFrame, Free>;
 using Packet = std::unique_ptr<AVPacket, Free>;

@@ -15,13 +15,6 @@ constexpr AVRational kMicrosecond{1, 1'000'000};
 constexpr int kFirstFreePid = 0x100;
 constexpr int kMostPid = 0x1FFA;
 
-struct CloseStreamCopy {
-    void operator()(AVFormatContext* context) const {
-        if (context->pb != nullptr) avio_closep(&context->pb);
-        avformat_free_context(context);
-    }
-};
-
 /// A transport stream that is being written beside its place.
 class StreamCopy {
  public:
@@ -155,7 +148,7 @@ class StreamCopy {
 
     std::filesystem::path from_, to_, part_;
     libav::Demuxer demuxer_;
-    std::unique_ptr<AVFormatContext, CloseStreamCopy> muxer_;
+    libav::Muxer muxer_;
     libav::Packet packet_{av_packet_alloc()};
     AVStream* klv_ = nullptr;
     int video_ = -1;           ///< track of the original whose pictures are the frames
@@ -163,24 +156,47 @@ class StreamCopy {
     bool done_ = false;
 };
 
+/// How far a copy is, and whether it is to go on.
+class CopyWatch {
+ public:
+    CopyWatch(const std::filesystem::path& from, const IndexProgress& progress, const std::stop_token& stop)
+        : from_(from), progress_(progress), stop_(stop) {}
+    void goOn() const {
+        if (stop_.stop_requested()) throw Error(ErrorKind::input, from_.string() + ": stopped while copying it");
+    }
+    void tell(double share) {
+        const int percent = static_cast<int>(100 * share);
+        if (progress_ && percent > told_percent_) progress_(share);
+        told_percent_ = std::max(told_percent_, percent);
+    }
+
+ private:
+    const std::filesystem::path& from_;
+    const IndexProgress& progress_;
+    const std::stop_token& stop_;
+    int told_percent_ = -1;
+};
+
 }  // namespace
 
-void copyWithKlv(const std::filesystem::path& from, const std::function<std::optional<AddedPacket>()>& added,
+void copyWithKlv(const std::filesystem::path& from, const std::function<void(const TakePacket&)>& add,
                  const std::filesystem::path& to, const IndexProgress& progress, const std::stop_token& stop) {
     StreamCopy copy(from, to);
-    std::optional<AddedPacket> next = added();
-    int told_percent = -1;
-    while (copy.next()) {
-        if (stop.stop_requested()) throw Error(ErrorKind::input, from.string() + ": stopped while copying it");
-        // A picture is shown when it is decoded or later, so that nothing is added too late.
-        const std::int64_t now = copy.pictureStamp();
-        for (; next && now != kNoStamp && next->stamp_us <= now; next = added()) copy.add(*next);
+    CopyWatch watch(from, progress, stop);
+    bool more = copy.next();
+    const auto copyOne = [&] {
         copy.copy();
-        const int percent = static_cast<int>(100 * copy.share());
-        if (progress && percent > told_percent) progress(copy.share());
-        told_percent = std::max(told_percent, percent);
-    }
-    for (; next; next = added()) copy.add(*next);
+        watch.tell(copy.share());
+        more = copy.next();
+    };
+    add([&](const AddedPacket& packet) {
+        watch.goOn();
+        // A picture is shown when it is decoded or later, so that nothing is added too late.
+        for (; more && (copy.pictureStamp() == kNoStamp || copy.pictureStamp() < packet.stamp_us); copyOne())
+            watch.goOn();
+        copy.add(packet);
+    });
+    for (; more; copyOne()) watch.goOn();
     copy.finish();
 }
 

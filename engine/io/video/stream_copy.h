@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <stop_token>
 #include <vector>
 
@@ -17,11 +16,15 @@ struct AddedPacket {
     std::vector<std::uint8_t> bytes;
 };
 
+/// Takes what is to be added, one after the other.
+using TakePacket = std::function<void(const AddedPacket&)>;
+
 /// Copies a video into an MPEG transport stream as it is, nothing decoded, and adds a track of KLV to it, whose packets
-/// lie before the picture of their time. Packets are asked for one after the other; nothing: there are no more. What
-/// was at `to` stays until all is there. Throws Error(input) for what cannot be read or cannot lie in a transport
-/// stream, and "stopped while copying it" when `stop` was requested; Error(output) for what cannot be written.
-void copyWithKlv(const std::filesystem::path& from, const std::function<std::optional<AddedPacket>()>& added,
+/// lie before the picture of their time. `add` is called once and hands all packets over; the video is copied
+/// meanwhile, so that none need be held. What was at `to` stays until all is there. Throws Error(input) for what cannot
+/// be read or cannot lie in a transport stream, and "stopped while copying it" when `stop` was requested; Error(output)
+/// for what cannot be written.
+void copyWithKlv(const std::filesystem::path& from, const std::function<void(const TakePacket&)>& add,
                  const std::filesystem::path& to, const IndexProgress& progress = {}, const std::stop_token& stop = {});
 
 }  // namespace eyrie

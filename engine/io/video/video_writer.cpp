@@ -15,13 +15,6 @@ namespace {
 /// Ticks a second; a multiple of the usual frame rates and fine enough for any other.
 constexpr int kTicksPerSecond = 90000;
 
-struct CloseOutput {
-    void operator()(AVFormatContext* context) const {
-        if (context->pb != nullptr) avio_closep(&context->pb);
-        avformat_free_context(context);
-    }
-};
-
 const AVCodec* findEncoder(const std::string& name) {
     if (!name.empty()) return avcodec_find_encoder_by_name(name.c_str());
     const AVCodec* encoder = avcodec_find_encoder_by_name("libx264");
@@ -45,7 +38,7 @@ struct VideoWriter::Implementation {
     bool in_place = false;
     cv::Size size;
     VideoWriterOptions options;
-    std::unique_ptr<AVFormatContext, CloseOutput> muxer;
+    libav::Muxer muxer;
     libav::Codec codec;
     libav::Scaler scaler;
     libav::Picture picture{av_frame_alloc()};

@@ -6,9 +6,9 @@
 #include <charconv>
 #include <cmath>
 
+#include "core/labels/result_box.h"
 #include "store/database/rows.h"
 #include "store/project/sequence_rows.h"
-#include "store/runs/box_of_state.h"
 #include "store/runs/class_rule.h"
 #include "store/runs/frame_rows.h"
 #include "store/runs/of_run.h"

@@ -7,11 +7,11 @@
 #include <optional>
 #include <unordered_map>
 
+#include "core/labels/result_box.h"
 #include "store/database/rows.h"
 #include "store/details/kept_details.h"
 #include "store/details/unfinished_frames.h"
 #include "store/project/sequence_rows.h"
-#include "store/runs/box_of_state.h"
 #include "store/runs/class_rule.h"
 #include "store/runs/of_run.h"
 #include "store/runs/run_store.h"

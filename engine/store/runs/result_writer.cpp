@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/utc_time.h"
+#include "core/values/last_frame.h"
 #include "store/database/rows.h"
 #include "store/details/recording_options.h"
 #include "store/details/unfinished_frames.h"
@@ -59,6 +60,15 @@ void storeParameters(SQLite::Database& database, int run_id,
     }
 }
 
+/// That a run and its video reach to a frame, where their end was not known before.
+void storeEnd(SQLite::Database& database, int run_id, FrameIndex last) {
+    SQLite::Statement run(database, "UPDATE run SET last_frame = ? WHERE id = ?");
+    RowWriter(run).integer(last).integer(run_id).run();
+    SQLite::Statement video(
+        database, "UPDATE sequence SET frame_count = ? WHERE id = (SELECT sequence_id FROM run WHERE id = ?)");
+    RowWriter(video).integer(last + 1).integer(run_id).run();
+}
+
 }  // namespace
 
 struct ResultWriter::Implementation {
@@ -85,6 +95,7 @@ struct ResultWriter::Implementation {
     int run_id = 0;
     RecordingOptions recording;
     FrameIndex first = 0, last = 0;  ///< planned
+    bool has_end = true;             ///< it is known before
     FrameIndex replaced_up_to = -1;  ///< frames up to here may be stored already
 };
 
@@ -96,6 +107,7 @@ ResultWriter::ResultWriter(const std::filesystem::path& project, RunRecord run,
     implementation_->recording = RecordingOptions::among(parameters);
     implementation_->first = run.first_frame;
     implementation_->last = run.last_frame;
+    implementation_->has_end = run.last_frame < kLastFrame;
     for (const RunRecord& earlier : RunStore(implementation_->project).runs()) {
         if (earlier.state == RunState::running) clearRunLock(path, earlier.id);
     }
@@ -148,6 +160,8 @@ float ResultWriter::write(const FrameResult& result) {
         implementation_->rows.insert(implementation_->run_id, result,
                                      implementation_->recording.keepsDetailsOf(
                                          result.motion.frame, implementation_->first, implementation_->last));
+        if (!implementation_->has_end)
+            storeEnd(implementation_->project.database(), implementation_->run_id, result.motion.frame);
         implementation_->storeTime();
         transaction.commit();
     });

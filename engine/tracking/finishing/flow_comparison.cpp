@@ -5,14 +5,10 @@
 #include <utility>
 #include <vector>
 
+#include "core/flow_limits.h"
 #include "core/robust_statistics.h"
 
 namespace eyrie {
-namespace {
-
-constexpr double kFlowNoise = 0.05;  ///< px/frame that registration may err by
-
-}  // namespace
 
 FlowMoments flowMoments(cv::Point2d begin, cv::Point2d ground, cv::Point2d end, int frames) {
     const cv::Point2d flow = ground - begin;

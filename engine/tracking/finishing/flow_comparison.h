@@ -12,6 +12,9 @@ inline constexpr int kFlowWindow = 24;         ///< frames over which motion is 
 inline constexpr int kShortestFlowWindow = 8;  ///< … and at least that many
 inline constexpr int kFlowWindowStep = 6;      ///< states from one window to the next
 
+/// Cosine of the angle to the ground's motion through the picture from which parallax may be what moves a thing.
+inline constexpr double kAlongFlow = 0.8;
+
 /// How a track moved over the ground, beside how the ground itself moved through the picture. Medians over windows of
 /// 24 frames.
 struct FlowComparison {

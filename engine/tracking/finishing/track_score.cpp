@@ -4,16 +4,13 @@
 #include <array>
 #include <cmath>
 
+#include "core/flow_limits.h"
 #include "tracking/finishing/flow_comparison.h"
 #include "tracking/finishing/track_paths.h"
 
 namespace eyrie {
 namespace {
 
-constexpr double kMostFlow = 4;     ///< px/frame; a faster camera tells no more
-constexpr double kMostRatio = 1.5;  ///< the same of own motion
-constexpr double kSticksRatio =
-    1.15;                            ///< what is infinitely far below the ground's plane, or in the lens, goes so fast
 constexpr double kUsualShare = 0.6;  ///< of states detected
 constexpr double kLifeOffset = 0.1;  ///< s
 
@@ -33,7 +30,7 @@ std::array<double, kFigures> figuresOf(const TrackEvidence& e) {
             std::log(e.life_s + kLifeOffset),
             flow,
             flow * against,
-            flow * std::min(e.flow_ratio, kMostRatio),
+            flow * std::min(e.flow_ratio, kMostFlowRatio),
             flow * ever,
             flow * (e.detected - kUsualShare)};
 }

@@ -6,7 +6,6 @@ namespace eyrie {
 namespace {
 
 constexpr double kLeastFlow = 0.2;  ///< px/frame; below that the camera does not move enough to tell
-constexpr double kAlongFlow = 0.8;  ///< cosine of the angle to the flow
 constexpr double kOblique = 0.8;    ///< cosine from straight down: only oblique views tell the camera's way surely
 constexpr double kLeastHeight = 0.03;
 constexpr double kLeastMoved = 4;   ///< px in a window

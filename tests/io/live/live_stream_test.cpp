@@ -169,13 +169,12 @@ TEST_F(LiveStreams, AConnectionThatBreaksOffIsNoEnd) {
 }
 
 TEST_F(LiveStreams, MetadataWithoutPicturesAreAStall) {
-    int number = 0;
     // Far more of them than of pictures, so that they go on for half a minute after the last one.
     copyWithKlv(
         film("film.ts", 30),
-        [&]() -> std::optional<AddedPacket> {
-            if (number == 600) return std::nullopt;
-            return AddedPacket{2'000'000 + 40'000 * std::int64_t{number++}, std::vector<std::uint8_t>(1000, 7)};
+        [](const TakePacket& take) {
+            for (std::int64_t number = 0; number < 600; ++number)
+                take({2'000'000 + 40'000 * number, std::vector<std::uint8_t>(1000, 7)});
         },
         folder_ / "a.ts");
     const LiveSender sender(port_, {{folder_ / "a.ts", 30, 0.3}});
@@ -199,7 +198,7 @@ TEST_F(LiveStreams, WhatNeverShowsAPictureLeavesNoRecording) {
 
 TEST_F(LiveStreams, ATrackThatIsSilentHoldsNothingOfTheRecordingBack) {
     copyWithKlv(
-        film("film.ts", 60), []() { return std::optional<AddedPacket>(); }, folder_ / "a.ts");
+        film("film.ts", 60), [](const TakePacket&) {}, folder_ / "a.ts");
     const LiveSender sender(port_, {{folder_ / "a.ts", 2, 0.3}});
     LiveStream stream(address(), options(), {});
     for (FrameIndex frame = 0; frame < 25; ++frame) stream.read(frame, false);

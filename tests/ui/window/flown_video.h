@@ -53,12 +53,10 @@ inline std::filesystem::path writeFlownVideo(const std::filesystem::path& folder
     }
     std::sort(sets.begin(), sets.end(),
               [](const AddedPacket& a, const AddedPacket& b) { return a.stamp_us < b.stamp_us; });
-    std::size_t next = 0;
     copyWithKlv(
         plain,
-        [&]() -> std::optional<AddedPacket> {
-            if (next == sets.size()) return std::nullopt;
-            return sets[next++];
+        [&](const TakePacket& take) {
+            for (const AddedPacket& set : sets) take(set);
         },
         flown);
     return flown;

@@ -1,9 +1,12 @@
 #include <QComboBox>
 #include <QSignalSpy>
 #include <QTest>
+#include <condition_variable>
 #include <fstream>
+#include <mutex>
 #include <string>
 
+#include "core/error.h"
 #include "formats/label_formats.h"
 #include "io/video/frame_source.h"
 #include "ui/session/session_support.h"
@@ -101,6 +104,29 @@ class HandoverTest : public QObject {
         QVERIFY(finished.wait(kPatience_ms));
         QVERIFY2(!finished.front().front().toBool(), qPrintable(dialog.report()));
         QVERIFY(!std::filesystem::exists(*home_ / "clip.mp4"));
+    }
+
+    void whatIsStoppedIsNoFailure() {
+        ExportSource source;
+        source.title = QStringLiteral("Export");
+        source.offers << ExportOffer{QStringLiteral("txt"), QStringLiteral("Text"), QStringLiteral("txt"), {}};
+        source.files = [](const ExportWish&) { return std::vector<OutputFile>(); };
+        source.begin = [](const ExportWish&) -> ExportWork {
+            return [](const ExportProgress&, const std::stop_token& stop) -> std::optional<QString> {
+                std::mutex mutex;
+                std::unique_lock lock(mutex);
+                std::condition_variable_any().wait(lock, stop, [] { return false; });
+                throw Error(ErrorKind::output, "only half of it is there");
+            };
+        };
+        ExportDialog dialog(source);
+        dialog.setTarget(*home_ / "a.txt");
+        QSignalSpy finished(&dialog, &ExportDialog::finishedExport);
+        dialog.startExport();
+        dialog.startExport();
+        QVERIFY(finished.wait(kPatience_ms));
+        QVERIFY(!finished.front().front().toBool());
+        QVERIFY2(dialog.report().startsWith(QStringLiteral("Stopped")), qPrintable(dialog.report()));
     }
 
     void nothingSelectedIsSaid() {

@@ -81,9 +81,9 @@ ExportSource labelExport(const LabelSession& labels) {
     };
     source.begin = [&labels](const ExportWish& wish) -> ExportWork {
         return [set = labels.annotations(), sequence = labels.sequence(), camera = labels.sharedCamera(), wish](
-                   const ExportProgress&, const std::stop_token&) {
-            return exportText(writeLabels(labelsOf(set, sequence, *camera), wish.path, wish.format,
-                                          exportOptionsOf(wish, sequence.path)));
+                   const ExportProgress&, const std::stop_token& stop) {
+            return exportText(writeLabels(labelStreamOf(set, sequence, *camera), wish.path, wish.format,
+                                          exportOptionsOf(wish, sequence.path), stop));
         };
     };
     return source;

@@ -40,9 +40,7 @@ ExportSource ClipDialog::sourceFor(const ClipDialog* self, const ProjectSession&
     ExportSource source;
     source.title = subject.title;
     source.name = subject.title;
-    ExportOffer video{QStringLiteral("mp4"), tr("Video (mp4)"), QStringLiteral("mp4"), {}};
-    video.can_stop = true;
-    source.offers << video;
+    source.offers << ExportOffer{QStringLiteral("mp4"), tr("Video (mp4)"), QStringLiteral("mp4"), {}};
     const RunRecord run = session.runData()->record;
     const std::filesystem::path project = session.project();
     source.read = {project, run.sequence.path};

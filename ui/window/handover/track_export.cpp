@@ -34,24 +34,12 @@ ExportOffer vmtiOffer() {
     offer.title = tell("MISB ST 0903 VMTI in a copy of the video");
     offer.ending = QStringLiteral("ts");
     offer.holds = tell("targets with ids, confidence, boxes, and places where they are known; not: rotation");
-    offer.can_stop = true;
     return offer;
 }
 
 QString vmtiText(const VmtiReport& report, const LabelStream& labels) {
     return tell("Wrote a copy of the video with %1 sets of %2 targets.\n").arg(report.frames).arg(report.targets) +
            lines(remarksOn(report, labels.about.world->no_place)) + lines(labels.about.notes);
-}
-
-std::unique_ptr<FrameSource> pixelsOf(const ExportedRun& run, bool needed, const std::stop_token& stop) {
-    if (!run.media) return nullptr;
-    try {
-        return run.media->open({}, stop);
-    } catch (const Error&) {
-        // Boxes can be written without it; what needs times or places on the earth says so.
-        if (needed || stop.stop_requested()) throw;
-        return nullptr;
-    }
 }
 
 std::optional<QString> writeTracks(const ExportedRun& run, const ExportWish& wish, const ExportProgress& progress,
@@ -61,21 +49,14 @@ std::optional<QString> writeTracks(const ExportedRun& run, const ExportWish& wis
     const CorrectedTracks corrected = readCorrectedTracks(project, run.record);
     const Snapshot unchanging(project);
     LabelStream labels = labelStreamOf(store, run.record, corrected);
-    const bool as_video = wish.format == kVmtiFormat;
-    std::unique_ptr<FrameSource> pixels;
-    if (tellsWorld(wish.format)) {
-        pixels = pixelsOf(run, as_video, stop);
-        if (stop.stop_requested()) return std::nullopt;
-        addWorld(labels, project, run.record, pixels.get(), {}, stop);
+    const auto open = [&] { return run.media ? run.media->open({}, stop) : nullptr; };
+    const auto video = addWorld(wish.format, labels, project, run.record, open, {}, stop);
+    if (wish.format != kVmtiFormat) {
+        const ExportReport report =
+            writeLabels(labels, wish.path, wish.format, exportOptionsOf(wish, run.record.sequence.path), stop);
+        return exportText(report) + lines(labels.about.notes);
     }
-    if (!as_video) {
-        const LabelFile about = labels.about;
-        ExportReport report =
-            writeLabels(labels, wish.path, wish.format, exportOptionsOf(wish, run.record.sequence.path));
-        return exportText(report) + lines(about.notes);
-    }
-    if (!pixels) throw Error(ErrorKind::input, run.record.sequence.path + ": the video is needed for this format");
-    const VmtiReport report = writeVmti(labels, *pixels, wish.path, progress, stop);
+    const VmtiReport report = writeVmti(labels, *video, wish.path, progress, stop);
     if (stop.stop_requested()) return std::nullopt;
     return vmtiText(report, labels);
 }
@@ -97,13 +78,8 @@ ExportSource trackExport(const ProjectSession& session) {
         return labelOutputs(wish, exportOptionsOf(wish, run.record.sequence.path));
     };
     source.begin = [run](const ExportWish& wish) -> ExportWork {
-        return [run, wish](const ExportProgress& progress, const std::stop_token& stop) -> std::optional<QString> {
-            try {
-                return writeTracks(run, wish, progress, stop);
-            } catch (const Error&) {
-                if (stop.stop_requested()) return std::nullopt;
-                throw;
-            }
+        return [run, wish](const ExportProgress& progress, const std::stop_token& stop) {
+            return writeTracks(run, wish, progress, stop);
         };
     };
     return source;

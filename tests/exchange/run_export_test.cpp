@@ -1,0 +1,90 @@
+#include "exchange/run_export.h"
+
+#include <gmock/gmock.h>
+
+#include "core/error.h"
+#include "exchange/project_labels.h"
+#include "formats/track_world.h"
+#include "support/temporary_folder.h"
+#include "support/written_run.h"
+
+namespace eyrie::run_export_test {
+namespace {
+
+class RunExport : public testing::Test {
+ protected:
+    RunExport()
+        : run_(test::writeRun(folder_ / "p.eyrie", 10,
+                              [](int frame, FrameResult& result) {
+                                  result.motion.time_us = 40'000 * frame;
+                                  TrackState state;
+                                  state.id = 1;
+                                  state.box = {{30.0 + 2 * frame, 40}, 20, 8, 0};
+                                  state.status = TrackStatus::confirmed;
+                                  result.tracks = {state};
+                              })),
+          project_(ProjectFile::open(folder_ / "p.eyrie", ProjectFile::Mode::read_only)),
+          store_(project_),
+          labels_(labelStreamOf(store_, run_, false)) {}
+
+    /// A video that cannot be opened.
+    OpenVideo broken() {
+        return [this]() -> std::unique_ptr<FrameSource> {
+            ++asked_;
+            throw Error(ErrorKind::input, "the video is gone");
+        };
+    }
+    std::unique_ptr<FrameSource> world(const std::string& format, const OpenVideo& open,
+                                       const std::stop_token& stop = {}) {
+        return addWorld(format, labels_, project_, run_, open, {}, stop);
+    }
+
+    /// What is thrown; empty where nothing is.
+    static std::string refusal(const std::function<void()>& what) {
+        try {
+            what();
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return {};
+    }
+
+    test::TemporaryFolder folder_;
+    RunRecord run_;
+    ProjectFile project_;
+    RunStore store_;
+    LabelStream labels_;
+    int asked_ = 0;
+};
+
+TEST_F(RunExport, aFormatOfBoxesAloneDoesNotAskForTheVideo) {
+    EXPECT_EQ(world("native", broken()), nullptr);
+    EXPECT_EQ(asked_, 0);
+    EXPECT_EQ(labels_.about.world, nullptr);
+}
+
+TEST_F(RunExport, aFormatWithTimesIsWrittenWithoutTheVideo) {
+    EXPECT_EQ(world("tracks-csv", broken()), nullptr);
+    EXPECT_EQ(asked_, 1);
+    ASSERT_NE(labels_.about.world, nullptr);
+    EXPECT_NEAR(labels_.about.world->seconds(5), 0.2, 1e-6);
+}
+
+TEST_F(RunExport, aCopyOfTheVideoNeedsIt) {
+    EXPECT_THAT(refusal([&] { world(kVmtiFormat, broken()); }), testing::HasSubstr("the video is gone"));
+    EXPECT_THAT(refusal([&] { world(kVmtiFormat, [] { return nullptr; }); }), testing::HasSubstr("is needed"));
+}
+
+TEST_F(RunExport, whatIsStoppedIsNotWrittenWithLess) {
+    std::stop_source stop;
+    stop.request_stop();
+    EXPECT_THAT(refusal([&] { world("tracks-csv", broken(), stop.get_token()); }), testing::HasSubstr("is gone"));
+    EXPECT_THAT(refusal([&] {
+                    world(
+                        "tracks-csv", [] { return nullptr; }, stop.get_token());
+                }),
+                testing::HasSubstr("stopped"));
+}
+
+}  // namespace
+}  // namespace eyrie::run_export_test
