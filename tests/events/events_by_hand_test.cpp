@@ -194,6 +194,33 @@ TEST(EventsByHand, NobodyAppearsInTheFirstFrameOrEndsInTheLast) {
     EXPECT_EQ(events[1].frame, 199);
 }
 
+TEST(EventsByHand, ANewGroundThatIsConnectedIsNoEdgeOfTheSearch) {
+    // The camera climbs by 1 % a frame, so that a new ground begins with frame 111.
+    ByHand scene(150);
+    std::vector<Homography> steps;
+    for (int frame = 0; frame < 150; ++frame)
+        steps.push_back({cv::Matx33d(1 / 1.01, 0, 0, 0, 1 / 1.01, 0, 0, 0, 1), frame, frame + 1});
+    scene.footage.camera = CameraMotion(steps);
+    ASSERT_THAT(GroundStretches(scene.footage).all(), SizeIs(2));
+    const std::vector<Moment> ends_before = {{0, {100, 60}, 1}, {104, {100, 60}, 1}, {105, {100, 60}, 1}};
+    scene.add(ends_before);
+    const auto lost = scene.found(findBorderEvents);
+    ASSERT_THAT(lost, SizeIs(1)) << "it was searched for on";
+    EXPECT_EQ(lost[0].kind, EventKind::lost);
+    ByHand after = scene;
+    after.paths.clear();
+    after.add({{115, {100, 60}, 1}, {116, {100, 60}, 1}, {150, {100, 60}, 1}});
+    after.paths[0].stretch = 1;
+    const auto found = after.found(findBorderEvents);
+    ASSERT_THAT(found, SizeIs(1)) << "it was searched for before";
+    EXPECT_EQ(found[0].kind, EventKind::appears);
+    // Where nothing connects them, it is one.
+    steps.erase(steps.begin() + 110);
+    after.footage.camera = scene.footage.camera = CameraMotion(steps);
+    EXPECT_THAT(scene.found(findBorderEvents), SizeIs(0));
+    EXPECT_THAT(after.found(findBorderEvents), SizeIs(0));
+}
+
 TEST(EventsByHand, WhoHeadsForTheBorderLeavesAndWhoHeadsAwayIsLost) {
     // The front of a car is 2.25 m ahead. At 0.25 m a frame it is 3.75 m further after 0.6 s: it passes the border at
     // x = 199.9 m from 193.9 m on.
@@ -286,6 +313,50 @@ TEST(EventsByHand, ALineIsCrossedWhereItWasPassedLast) {
     inside.options.zone_margin_m = 0.4;
     inside.add(alongX({29.8, 30.2, 32}));
     EXPECT_THAT(inside.inZone(line), IsEmpty()) << "it was never clearly on the first side";
+}
+
+TEST(EventsByHand, LoiteringIsLongAndFarInAPlace) {
+    // Two pictures a second, to and fro by so many metres, then away; the place is 60 m wide.
+    const auto loitering = [](int steps, double by) {
+        ByHand scene(400);
+        scene.footage.scale.frame_rate_hz = 2;
+        std::vector<Moment> moments;
+        for (int i = 0; i <= steps; ++i) moments.push_back({i, {50 + (i % 2 == 0 ? 0 : by), 60}, 2 * by, true});
+        moments.push_back({steps + 1, {150, 60}, 20, true});
+        scene.add(moments);
+        return scene.found(findLoitering);
+    };
+    const auto events = loitering(120, 20);
+    ASSERT_THAT(events, SizeIs(1));
+    EXPECT_NEAR(events[0].figure, 60, 1e-12) << "just as long as it must";
+    EXPECT_EQ(events[0].first_frame, 0);
+    EXPECT_EQ(events[0].frame, 60);
+    EXPECT_EQ(events[0].last_frame, 120);
+    EXPECT_THAT(loitering(119, 20), IsEmpty());
+    EXPECT_THAT(loitering(120, 59), SizeIs(1));
+    EXPECT_THAT(loitering(120, 61), IsEmpty()) << "it leaves the place each time";
+    EXPECT_THAT(loitering(120, 1), SizeIs(1)) << "120 m are twice its width";
+    EXPECT_THAT(loitering(120, 0.99), IsEmpty());
+}
+
+TEST(EventsByHand, AgainstTheFlowIsWhoMeetsAsManyAsAreNeeded) {
+    const auto driven = [](int others) {
+        ByHand scene;
+        std::vector<double> there, back;
+        for (int x = 20; x <= 60; ++x) there.push_back(x);
+        back.assign(there.rbegin(), there.rend());
+        for (int i = 0; i < others; ++i) scene.add(alongX(there));
+        scene.add(alongX(back), kPi);
+        return scene.found(EventKind::against_flow, findFlowEvents);
+    };
+    const auto events = driven(5);
+    ASSERT_THAT(events, SizeIs(1));
+    EXPECT_THAT(events[0].tracks, ElementsAre(6));
+    EXPECT_NEAR(events[0].figure, 40, 1e-9) << "metres against it";
+    EXPECT_EQ(events[0].first_frame, 0);
+    EXPECT_EQ(events[0].frame, 20 * 25);
+    EXPECT_EQ(events[0].last_frame, 40 * 25);
+    EXPECT_THAT(driven(4), IsEmpty());
 }
 
 TEST(EventsByHand, TheFastestIsLookedForOnOneSideOnly) {
