@@ -82,6 +82,37 @@ TEST(ReviewByHand, OneThatLastsLongHidesNoneThatCameBefore) {
     EXPECT_THAT(carried(lasting(500, 500), {lasting(10, 480), lasting(20, 30), lasting(40, 50)}), ElementsAre(1, 0, 0));
 }
 
+TEST(ReviewByHand, AVehicleIsWhereItsLastSecondLeadsFromItsTracksEnds) {
+    // Stands at x = 250 px up to frame 75, then drives 2 px a frame up to frame 100.
+    StoredTracks run = emptyRun();
+    EventTrack track{5000, {}};
+    for (FrameIndex frame = 40; frame <= 100; ++frame)
+        track.boxes.push_back({frame, {{250.0 + 2 * std::max(0, frame - 75), 200}, 22, 9, 0}});
+    run.tracks.push_back(track);
+    Event event = lasting(10, 170);
+    event.place = {900, 500};  // of no help
+    const auto isMeantAt = [&](FrameIndex frame, double x) {
+        Verdict verdict = verdictOn(event);
+        verdict.subject.frame = frame;
+        verdict.subject.place = {x, 200};
+        return carryOver({{1, verdict}}, {event}, {}, run).of_event[0] == 1;
+    };
+    // Seen there: 5 m are 25 px.
+    EXPECT_TRUE(isMeantAt(90, 280 + 24.9));
+    EXPECT_FALSE(isMeantAt(90, 280 + 25.1));
+    EXPECT_FALSE(isMeantAt(90, 280 - 25.1));
+    // Twenty frames later it would be at 340.
+    EXPECT_TRUE(isMeantAt(120, 340 + 24.9));
+    EXPECT_FALSE(isMeantAt(120, 340 + 25.1));
+    EXPECT_TRUE(isMeantAt(120, 340 - 24.9));
+    EXPECT_FALSE(isMeantAt(120, 340 - 25.1));
+    EXPECT_TRUE(isMeantAt(150, 400)) << "two seconds later";
+    EXPECT_FALSE(isMeantAt(151, 402)) << "that is too long to know";
+    // Before it began it stood, as in its first second.
+    EXPECT_TRUE(isMeantAt(20, 250 + 24.9));
+    EXPECT_FALSE(isMeantAt(20, 250 + 25.1));
+}
+
 TEST(ReviewByHand, FramesOfAStretchWereNotSearchedFromItsFirstToItsLast) {
     const std::vector<FrameSpan> stretches = {{50, 60}, {80, 80}};
     for (const FrameIndex frame : {50, 55, 60, 80, 1000, 5000})
