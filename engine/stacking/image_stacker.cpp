@@ -55,6 +55,12 @@ void StackingOptions::describe(ParameterVisitor& v) {
                  {"m", "Width of the stack area across the motion.", "Teutsch §7.3.4: 115 px"});
     declare.integer("stacking.neighbours", neighbours, 1, 25,
                     {"vectors", "Neighbours that vote for a new vector's stack, k.", "Teutsch §5.3.2"});
+    declare.flag(
+        "stacking.follow_lone_vectors", follow_lone_vectors,
+        {"",
+         "The vectors of a stack carry it even while they lie in no cluster, by their own direction. Off: they "
+         "are lost to it there, as single directions blur its edges.",
+         "Teutsch §5.3.2"});
     declare.real(
         "stacking.max_speed_difference", max_speed_difference, 0.01, 2,
         {"", "A stack replaces a cluster only if their speeds differ by no more than this share.", "Teutsch §5.3.4"});
@@ -68,6 +74,7 @@ void StackingOptions::describe(ParameterVisitor& v) {
 StackingOptions StackingOptions::thesis() {
     StackingOptions options;
     options.enabled = true;
+    options.follow_lone_vectors = true;
     return options;
 }
 
@@ -80,7 +87,12 @@ ImageStacker::ImageStacker(const StackingOptions& options, const SceneScale& sca
 std::vector<ImageStacker::Placed> ImageStacker::placeVectors(const FrameMotion& motion,
                                                              const std::vector<MotionCluster>& clusters) const {
     std::vector<Placed> placed(motion.motion_vectors.size());
-    for (std::size_t i = 0; i < placed.size(); ++i) placed[i].vector = &motion.motion_vectors[i];
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+        const MotionVector& vector = motion.motion_vectors[i];
+        placed[i].vector = &vector;
+        placed[i].direction =
+            std::atan2(static_cast<double>(vector.velocity.y), static_cast<double>(vector.velocity.x));
+    }
     // Single directions fluctuate; the cluster's is steadier and keeps edges sharp (§5.3).
     for (std::size_t c = 0; c < clusters.size(); ++c) {
         for (const int member : clusters[c].members) {
@@ -95,7 +107,9 @@ void ImageStacker::moveMasters(const std::vector<Placed>& placed) {
     std::map<int, std::vector<MasterVector::Suggestion>> suggestions;
     for (const auto& p : placed) {
         const auto owner = owner_.find(p.vector->id);
-        if (owner != owner_.end() && p.cluster >= 0) suggestions[owner->second].push_back({p.vector, p.direction});
+        if (owner == owner_.end()) continue;
+        if (p.cluster >= 0 || options_.follow_lone_vectors)
+            suggestions[owner->second].push_back({p.vector, p.direction});
     }
     std::erase_if(entries_, [&](Entry& entry) { return !entry.master.update(suggestions[entry.master.id()]); });
     owner_.clear();

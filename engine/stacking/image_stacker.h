@@ -32,6 +32,7 @@ struct StackingOptions {
     double area_length_m = 119;          ///< 345 px at 0.345 m/px
     double area_width_m = 39.7;          ///< 115 px at 0.345 m/px
     int neighbours = 3;                  ///< k of the k-NN vote
+    bool follow_lone_vectors = false;    ///< a stack's vectors carry it outside every cluster, too
     double max_speed_difference = 0.25;  ///< of the cluster's speed
     double max_turn_degrees = 20;
     double vehicle_length_m = kCarLength_m;  ///< for k of k-means
@@ -91,7 +92,7 @@ class ImageStacker {
         template <class Archive>
         void transfer(Archive& archive);
     };
-    /// A motion vector with the direction its cluster lends it.
+    /// A motion vector with the direction its cluster lends it; outside every cluster with its own.
     struct Placed {
         const MotionVector* vector = nullptr;
         double direction = 0;

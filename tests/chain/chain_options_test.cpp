@@ -175,6 +175,7 @@ TEST(ChainOptions, theThesisPresetDiffersFromTheDefaultsWhereItMust) {
         {"clustering.max_length", "0"},
         {"clustering.max_width", "0"},
         {"stacking.enabled", "true"},
+        {"stacking.follow_lone_vectors", "true"},
         {"detection.method", "gradient"},
         {"detection.min_roi_length", "0"},
         {"detection.min_roi_width", "0"},

@@ -161,6 +161,31 @@ TEST(ScanAtScale, BoxesLieAroundTheMiddleOfTheirWindows) {
     }
 }
 
+TEST(ScanAtScale, AModelOfVehiclesThatFillTheWindowHasBoxesOfItsSize) {
+    // A car of 16 × 32 pixels fills the window as it is.
+    SlidingWindowOptions options = drivenSceneWindow();
+    options.car_length_m = 32 * kContractScale.gsd_m_per_px;
+    options.car_width_m = 16 * kContractScale.gsd_m_per_px;
+    options.decision_threshold = -1000;
+    options.rejection_margin = SlidingWindowOptions::kNoRejection;
+    VehicleModel model = loadModel(test::drivenSceneModel());
+    model.fit = WindowFit::filled();
+    const WindowScanner scanner(model);
+    const cv::Mat area = roiOf(drivenScene(0.5)).image;
+    cv::Mat decision;
+    const auto found = scanAtScale(scanner, area, 1, options, kContractScale, decision);
+    EXPECT_EQ(decision.size(), cv::Size(area.cols - 15, area.rows - 31));
+    const auto peaks = decisionPeaks(decision, -1000);
+    ASSERT_FALSE(found.empty());
+    ASSERT_EQ(found.size(), peaks.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        EXPECT_NEAR(found[i].box.x, peaks[i].x - 0.5, 1e-9);
+        EXPECT_NEAR(found[i].box.y, peaks[i].y - 0.5, 1e-9);
+        EXPECT_NEAR(found[i].box.width, 16, 1e-9);
+        EXPECT_NEAR(found[i].box.height, 32, 1e-9);
+    }
+}
+
 TEST(ScanAtScale, WhatIsShrunkInOneDirectionIsAveraged) {
     // Across nothing is scaled, along two pixels become one.
     SlidingWindowOptions options = drivenSceneWindow();

@@ -82,6 +82,23 @@ TEST(ModelFile, keepsEverythingForEveryDescriptorAndClassifier) {
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1) << "nothing is left beside it";
 }
 
+TEST(ModelFile, tellsWhatVehiclesTakeOfTheWindow) {
+    VehicleModel model = smallModel();
+    EXPECT_EQ(modelBytes(model)[8], 1) << "earlier versions read it";
+    EXPECT_EQ(modelFromBytes(modelBytes(model), "m").fit, (WindowFit{21.5, 10}));
+    model.fit = WindowFit::filled();
+    const std::string bytes = modelBytes(model);
+    EXPECT_EQ(bytes[8], 2);
+    const VehicleModel loaded = modelFromBytes(bytes, "m");
+    EXPECT_EQ(loaded.fit, (WindowFit{32, 16}));
+    EXPECT_EQ(loaded.record.settings, model.record.settings);
+    EXPECT_EQ(modelBytes(loaded), bytes);
+    for (const WindowFit outside : {WindowFit{33, 16}, {32, 17}, {0, 16}, {32, 0}, {32, -1}}) {
+        model.fit = outside;
+        EXPECT_THAT(messageOf(modelBytes(model)), HasSubstr("do not fit")) << outside.length << " × " << outside.width;
+    }
+}
+
 TEST(ModelFile, cutShortAnywhereIsRefused) {
     const std::string bytes = modelBytes(smallModel());
     for (std::size_t size = 0; size < bytes.size(); size += size < 64 ? 1 : 131) {
@@ -148,7 +165,7 @@ TEST(ModelFile, foreignAndNewerFilesAreSaidToBeSo) {
     EXPECT_THAT(messageOf(""), HasSubstr("not a classifier model"));
     EXPECT_THAT(messageOf("\x89PNG\r\n\x1a\n and so on and on and on"), HasSubstr("not a classifier model"));
     std::string newer = modelBytes(smallModel());
-    newer[8] = 2;
+    newer[8] = 3;
     EXPECT_THAT(messageOf(newer), HasSubstr("newer version"));
     EXPECT_THAT(messageOf(resealed(newer)), HasSubstr("newer version"));
 }

@@ -299,6 +299,48 @@ TEST(SampleMaking, OthersLieBesideEveryFourthTimeAndAnywhereOtherwise) {
     }
 }
 
+TEST(SampleMaking, AsTheThesisCutsThemVehiclesFillTheWindow) {
+    // Heading up, twice as long and wide as the window: each window pixel is the mean of 2 × 2 pixels of the box.
+    const cv::Mat gray = pattern({80, 100});
+    const cv::Mat window = cutWindow(gray, {{40, 50}, 64, 32, -kPi / 2}, WindowFit::filled());
+    ASSERT_EQ(window.size(), cv::Size(16, 32));
+    cv::Mat expected;
+    // Pixel centres of the box lie half a pixel beside those of the picture: its middle is that of a pixel.
+    cv::Mat half;
+    cv::warpAffine(gray, half, cv::Matx23d(1, 0, 24.5, 0, 1, 18.5), {32, 64}, cv::INTER_LINEAR | cv::WARP_INVERSE_MAP);
+    cv::resize(half, expected, {16, 32}, 0, 0, cv::INTER_AREA);
+    EXPECT_LE(cv::norm(window, expected, cv::NORM_INF), 3);
+    // A box of the window's size is the window.
+    const cv::Mat same = cutWindow(gray, {{40.5, 50.5}, 32, 16, -kPi / 2}, WindowFit::filled());
+    EXPECT_LE(cv::norm(same, gray(cv::Rect(33, 35, 16, 32)), cv::NORM_INF), 1);
+}
+
+TEST(SampleMaking, AsTheThesisCutsThemNoVehicleIsVisibleInOthers) {
+    LabelledImage image;
+    image.gray = cv::Mat(200, 200, CV_8UC1, cv::Scalar(60));
+    image.vehicles = {{{60, 60}, 30, 14, 0}, {{140, 60}, 30, 14, kPi / 2}};
+    image.unclear = {{{100, 150}, 40, 20, 0}};
+    for (const auto& boxes : {image.vehicles, image.unclear}) {
+        for (const OrientedBox& box : boxes) {
+            const bool lying = box.heading == 0;
+            const cv::Size size(int(lying ? box.length : box.width), int(lying ? box.width : box.length));
+            cv::rectangle(image.gray, cv::Rect(cv::Point(box.centre) - cv::Point(size) / 2, size), cv::Scalar(220),
+                          cv::FILLED);
+        }
+    }
+    const SampleSet samples = samplesFromImage(image, 80, {}, 5, SampleCutting::thesis());
+    EXPECT_EQ(countOf(samples, true), 2);
+    EXPECT_EQ(countOf(samples, false), 80);
+    for (const Sample& sample : samples) {
+        const double mean = cv::mean(sample.window)[0];
+        if (sample.vehicle) {
+            EXPECT_GT(mean, 200) << "the box and nothing around it";
+        } else {
+            EXPECT_LT(mean, 68) << "but for what interpolation draws in at the edge";
+        }
+    }
+}
+
 TEST(SampleMaking, AVehicleIsCutWhereNineteenTwentiethsOfItAreInThePicture) {
     LabelledImage image;
     image.gray = pattern({100, 100});

@@ -158,6 +158,16 @@ TEST(Trainer, nearlyEqualSamplesAreUsedWhereAskedFor) {
     EXPECT_EQ(vehicles("true"), 30 * 5);
 }
 
+TEST(Trainer, theModelKnowsWhatAVehicleTakesOfTheWindow) {
+    const SampleSet samples = test::drawnSamples(30, 60, 1);
+    TrainingOptions options = smallOptions();
+    EXPECT_EQ(trainModel(samples, options, {})->fit, (WindowFit{21.5, 10}));
+    setParameter(describeOf(options), "training.fill_window", "true");
+    EXPECT_EQ(trainModel(samples, options, {})->fit, (WindowFit{32, 16}));
+    EXPECT_EQ(options.cutting().fit, WindowFit::filled());
+    EXPECT_FALSE(options.cutting().beside_vehicles);
+}
+
 TEST(Trainer, reportsProgressAndStops) {
     std::stop_source stop;
     std::vector<std::string> phases;

@@ -229,7 +229,9 @@ TEST(RivalStacks, StackAreasStayWithinReasonWhateverTheScale) {
 
 TEST(RivalStacks, AStackDiesWithItsVectorsAndAllWithAReset) {
     Traffic traffic{.places = {{1, {100, 50}}, {2, {110, 54}}, {3, {200, 61}}, {4, {210, 50}}}};
-    ImageStacker stacker(StackingOptions::thesis(), quarterMetre());
+    StackingOptions options = StackingOptions::thesis();
+    options.follow_lone_vectors = false;
+    ImageStacker stacker(options, quarterMetre());
     traffic.update(stacker);
     traffic.remember(stacker, {{1, 2}, {3, 4}});
     traffic.update(stacker);
@@ -244,6 +246,35 @@ TEST(RivalStacks, AStackDiesWithItsVectorsAndAllWithAReset) {
     EXPECT_TRUE(viewsOf(stacker).empty());
     traffic.update(stacker);
     EXPECT_TRUE(viewsOf(stacker).empty()) << "nothing is remembered";
+}
+
+TEST(RivalStacks, InTheThesisVectorsOutsideEveryClusterCarryTheirStack) {
+    EXPECT_FALSE(StackingOptions{}.follow_lone_vectors);
+    // A master at (100, 50), 10 px behind and 4 px to the left of the second vector; the third is somebody else.
+    Traffic traffic{.places = {{1, {100, 50}}, {2, {110, 54}}, {3, {300, 90}}}};
+    ImageStacker stacker(StackingOptions::thesis(), quarterMetre());
+    traffic.update(stacker);
+    traffic.remember(stacker, {{1, 2}});
+    traffic.update(stacker);
+    traffic.without_cluster = {1, 2};
+    traffic.places[1] += cv::Point2f(2, 1);
+    traffic.places[2] += cv::Point2f(2, 1);
+    traffic.update(stacker);
+    ASSERT_EQ(groupsOf(stacker), (std::set<Ids>{{1, 2}}));
+    EXPECT_EQ(viewsOf(stacker)[0].pose.position, cv::Point2d(102, 51));
+    EXPECT_EQ(viewsOf(stacker)[0].height, 2);
+    // By its own direction: the second has turned down, and the master lies behind and to the left of it still.
+    traffic.places.erase(1);
+    traffic.places[2] = {200, 100};
+    traffic.other_velocities[2] = {0, 1.5F};
+    traffic.update(stacker);
+    ASSERT_EQ(groupsOf(stacker), (std::set<Ids>{{2}}));
+    EXPECT_NEAR(viewsOf(stacker)[0].pose.position.x, 204, 1e-5);
+    EXPECT_NEAR(viewsOf(stacker)[0].pose.position.y, 90, 1e-5);
+    EXPECT_NEAR(viewsOf(stacker)[0].pose.heading, kPi / 2, 1e-6);
+    traffic.places.erase(2);
+    traffic.update(stacker);
+    EXPECT_TRUE(viewsOf(stacker).empty()) << "it goes with its last vector";
 }
 
 TEST(RivalStacks, AFrameThatWasNotRegisteredChangesNothing) {

@@ -42,14 +42,15 @@ struct ClassifyTestArguments {
 
 using SetsBySource = std::map<std::string, SampleSet>;
 
-SetsBySource readSets(const ClassifyTestArguments& arguments, const std::stop_token& stop) {
+SetsBySource readSets(const ClassifyTestArguments& arguments, const SampleCutting& cutting,
+                      const std::stop_token& stop) {
     SetsBySource sets;
     for (Sample& sample : readSampleFolders(arguments.samples)) sets[sample.source].push_back(std::move(sample));
     if (arguments.rendered > 0) {
         const auto images = renderLabelledImages(arguments.rendered, static_cast<std::uint64_t>(arguments.seed),
                                                  !arguments.quiet, stop);
         for (std::size_t i = 0; i < images.size(); ++i) {
-            for (Sample& sample : samplesFromImage(images[i], kOthersPerRenderedFrame, {}, i)) {
+            for (Sample& sample : samplesFromImage(images[i], kOthersPerRenderedFrame, {}, i, cutting)) {
                 sets["rendered"].push_back(std::move(sample));
             }
         }
@@ -140,7 +141,7 @@ int run(const ClassifyTestArguments& arguments) {
     const auto classifiers = chosen(arguments.classifiers, allClassifiers(), classifierFromName);
     TrainingOptions options = plainOptions(arguments);
     const InterruptGuard interrupt;
-    const SetsBySource sets = readSets(arguments, interrupt.token());
+    const SetsBySource sets = readSets(arguments, options.cutting(), interrupt.token());
     std::set<std::string> train_on(arguments.train_on.begin(), arguments.train_on.end());
     for (const std::string& name : train_on) {
         if (!sets.count(name)) throw Error(ErrorKind::parameter, "--train-on " + name + ": no such source of samples");

@@ -118,7 +118,7 @@ int run(const TrainArguments& arguments) {
     const InterruptGuard interrupt;
     SampleSet samples = readSampleFolders(arguments.samples);
     const std::vector<LabelledImage> images = labelledImages(arguments, options, interrupt.token());
-    SampleSet cut = samplesFromImages(images, static_cast<std::uint64_t>(options.seed));
+    SampleSet cut = samplesFromImages(images, static_cast<std::uint64_t>(options.seed), options.cutting());
     std::move(cut.begin(), cut.end(), std::back_inserter(samples));
     if (interrupt.token().stop_requested()) return exit_stopped;
     TrainingRecord record;

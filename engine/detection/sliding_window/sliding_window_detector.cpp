@@ -119,7 +119,7 @@ std::vector<Detection> SlidingWindowDetector::detect(const MotionRoi& roi, Detec
             }
         }
         if (trace != nullptr) {
-            const cv::Size rescaled = rescaledSize(roi.image.size(), scale, options_, scale_);
+            const cv::Size rescaled = rescaledSize(roi.image.size(), scale, options_, scale_, scanner_.model().fit);
             trace->addDecision(scale, overArea(decision, rescaled, roi.image.size()));
         }
     }

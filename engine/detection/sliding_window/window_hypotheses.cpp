@@ -61,17 +61,18 @@ std::vector<WindowHypothesis> suppressOverlapping(std::vector<WindowHypothesis> 
     return kept;
 }
 
-cv::Size rescaledSize(cv::Size image, double scale, const SlidingWindowOptions& options, const SceneScale& scene) {
+cv::Size rescaledSize(cv::Size image, double scale, const SlidingWindowOptions& options, const SceneScale& scene,
+                      const WindowFit& fit) {
     const double width_scale = options.rescaling == WindowRescaling::joint_11 ? scale : 1;
-    const double across = kCarWidthInWindow / (scene.px(options.car_width_m) * width_scale);
-    const double along = kCarLengthInWindow / (scene.px(options.car_length_m) * scale);
+    const double across = fit.width / (scene.px(options.car_width_m) * width_scale);
+    const double along = fit.length / (scene.px(options.car_length_m) * scale);
     return {sideOf(image.width * across), sideOf(image.height * along)};
 }
 
 std::vector<WindowHypothesis> scanAtScale(const WindowScanner& scanner, const cv::Mat& upright, double scale,
                                           const SlidingWindowOptions& options, const SceneScale& scene,
                                           cv::Mat& decision) {
-    const cv::Size size = rescaledSize(upright.size(), scale, options, scene);
+    const cv::Size size = rescaledSize(upright.size(), scale, options, scene, scanner.model().fit);
     const bool smaller = size.width <= upright.cols && size.height <= upright.rows;
     cv::Mat rescaled;
     cv::resize(upright, rescaled, size, 0, 0, smaller ? cv::INTER_AREA : cv::INTER_LINEAR);
@@ -82,8 +83,8 @@ std::vector<WindowHypothesis> scanAtScale(const WindowScanner& scanner, const cv
     std::vector<WindowHypothesis> found;
     for (const cv::Point& peak : decisionPeaks(decision, options.decision_threshold)) {
         WindowHypothesis hypothesis;
-        const double width = kCarWidthInWindow * x_factor;
-        const double length = kCarLengthInWindow * y_factor;
+        const double width = scanner.model().fit.width * x_factor;
+        const double length = scanner.model().fit.length * y_factor;
         hypothesis.box = {(peak.x + kWindowWidth / 2.0) * x_factor - 0.5 - width / 2,
                           (peak.y + kWindowHeight / 2.0) * y_factor - 0.5 - length / 2, width, length};
         hypothesis.decision = static_cast<double>(decision.at<float>(peak));

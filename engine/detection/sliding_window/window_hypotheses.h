@@ -25,8 +25,9 @@ std::vector<cv::Point> decisionPeaks(const cv::Mat& decision, double threshold);
 /// over union) go, and so on. Surest first; equals keep their order.
 std::vector<WindowHypothesis> suppressOverlapping(std::vector<WindowHypothesis> hypotheses, double overlap_threshold);
 
-/// Size to which an image is rescaled so that a vehicle of scale × the median car fills the window.
-cv::Size rescaledSize(cv::Size image, double scale, const SlidingWindowOptions& options, const SceneScale& scene);
+/// Size to which an image is rescaled so that a vehicle of scale × the median car takes of the window what `fit` says.
+cv::Size rescaledSize(cv::Size image, double scale, const SlidingWindowOptions& options, const SceneScale& scene,
+                      const WindowFit& fit = {});
 
 /// Peaks of the decision function of one scale as hypotheses; `decision` receives the function itself.
 std::vector<WindowHypothesis> scanAtScale(const WindowScanner& scanner, const cv::Mat& upright, double scale,

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <fstream>
 #include <system_error>
 
@@ -13,7 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kMagic = "EYRIEMDL";
-constexpr std::uint32_t kFormat = 1;
+constexpr std::uint32_t kFormat = 2;
+constexpr std::uint32_t kFirstWithFit = 2;  // earlier ones know our own samples only
 constexpr std::uintmax_t kLargestFile = 1ULL << 30;
 constexpr std::size_t kLongestText = 1 << 16;
 constexpr std::size_t kHeaderBytes = kMagic.size() + sizeof(std::uint32_t);
@@ -55,12 +57,21 @@ TrainingRecord readRecord(ByteReader& in) {
     return record;
 }
 
+WindowFit readFit(ByteReader& in) {
+    const WindowFit fit{static_cast<double>(in.getFinite()), static_cast<double>(in.getFinite())};
+    const bool inside = fit.length >= 1 && fit.length <= kWindowHeight && fit.width >= 1 && fit.width <= kWindowWidth;
+    if (!inside) in.damaged("its vehicles do not fit the window");
+    return fit;
+}
+
 }  // namespace
 
 std::string modelBytes(const VehicleModel& model) {
     ByteWriter out;
     for (const char c : kMagic) out.put(c);
-    out.put(kFormat);
+    // Where the first format says all, it stays: earlier versions read it, too.
+    const bool ours = model.fit == WindowFit{};
+    out.put(ours ? kFirstWithFit - 1 : kFormat);
     const TrainingRecord& record = model.record;
     out.putText(record.data.substr(0, kLongestText));
     out.put(static_cast<std::int32_t>(record.vehicles));
@@ -69,6 +80,10 @@ std::string modelBytes(const VehicleModel& model) {
     out.put(record.seed);
     out.putText(record.utc_time.substr(0, 64));
     out.putText(record.settings.substr(0, kLongestText));
+    if (!ours) {
+        out.put(static_cast<float>(model.fit.length));
+        out.put(static_cast<float>(model.fit.width));
+    }
     out.put(static_cast<std::int32_t>(model.descriptor->kind()));
     if (const auto* features = dynamic_cast<const ChannelFeatures*>(model.descriptor.get())) {
         writeRectangles(*features, out);
@@ -103,6 +118,7 @@ VehicleModel modelFromBytes(std::string_view bytes, const std::string& name) {
     ByteReader in(bytes.substr(kHeaderBytes, end - kHeaderBytes), name);
     VehicleModel model;
     model.record = readRecord(in);
+    if (format >= kFirstWithFit) model.fit = readFit(in);
     const int descriptor = in.getInt(0, static_cast<int>(allDescriptors().size()) - 1, "the descriptor");
     const auto kind = static_cast<DescriptorKind>(descriptor);
     model.descriptor = kind == DescriptorKind::channel_features ? readRectangles(in) : makeDescriptor(kind, 0);

@@ -7,6 +7,7 @@
 
 #include "learning/classifiers/classifier.h"
 #include "learning/descriptors/descriptor.h"
+#include "learning/models/window.h"
 
 namespace eyrie {
 
@@ -26,6 +27,7 @@ struct VehicleModel {
     std::shared_ptr<const Descriptor> descriptor;
     std::shared_ptr<const Classifier> classifier;
     TrainingRecord record;
+    WindowFit fit;  ///< of the vehicles it was trained on; boxes are made by it
 
     /// Decision value of a window (CV_8UC1, 16×32, heading up); higher is surer to be a vehicle.
     double decide(const cv::Mat& window) const;

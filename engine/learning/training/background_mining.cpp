@@ -25,15 +25,15 @@ struct Found {
     OrientedBox box;
 };
 
-/// The image turned so that `heading` points up and scaled so that `typical` gets the window's car size.
+/// The image turned so that `heading` points up and scaled so that `typical` takes of the window what `fit` says.
 struct UprightImage {
     cv::Mat gray;
     cv::Matx23d image_from_upright;
 };
 
-UprightImage uprightImage(const cv::Mat& gray, const OrientedBox& typical, double heading) {
-    const double across = typical.width / kCarWidthInWindow;
-    const double along = typical.length / kCarLengthInWindow;
+UprightImage uprightImage(const cv::Mat& gray, const OrientedBox& typical, const WindowFit& fit, double heading) {
+    const double across = typical.width / fit.width;
+    const double along = typical.length / fit.length;
     OrientedBox frame;
     frame.heading = heading;
     const cv::Point2d ahead = frame.direction();
@@ -69,7 +69,7 @@ bool isBackground(const OrientedBox& box, const LabelledImage& image) {
 
 void scanImage(const WindowScanner& scanner, const LabelledImage& image, std::size_t index, const OrientedBox& typical,
                double heading, std::vector<Found>& found) {
-    const UprightImage upright = uprightImage(image.gray, typical, heading);
+    const UprightImage upright = uprightImage(image.gray, typical, scanner.model().fit, heading);
     cv::Mat1f decision;
     cv::Mat scanned;
     scanner.scan(upright.gray, kMargin, scanned);
@@ -118,7 +118,7 @@ SampleSet mineBackground(const VehicleModel& model, const std::vector<LabelledIm
     for (const Found& one : found) {
         if (static_cast<int>(samples.size()) >= wanted) break;
         const LabelledImage& image = images[one.image];
-        samples.push_back({cutWindow(image.gray, one.box), false, image.source, image.group, false});
+        samples.push_back({cutWindow(image.gray, one.box, model.fit), false, image.source, image.group, false});
     }
     return samples;
 }

@@ -11,8 +11,8 @@ namespace eyrie {
 
 /// Scans labelled images with a model, upright to a few headings each (those of its vehicles, and random ones), and
 /// cuts the windows that it takes for vehicles but that overlap no labelled one by 0.45 or more and no unclear area: at
-/// most `wanted`, the worst first. Images without vehicles are scanned for vehicles of the size of `typical`. The same
-/// seed finds the same. Ends early, with what it has, when stopped.
+/// most `wanted`, the worst first, cut as the model was trained. Images without vehicles are scanned for vehicles of
+/// the size of `typical`. The same seed finds the same. Ends early, with what it has, when stopped.
 SampleSet mineBackground(const VehicleModel& model, const std::vector<LabelledImage>& images,
                          const OrientedBox& typical, int wanted, std::uint64_t seed, const TrainingWatch& watch = {});
 

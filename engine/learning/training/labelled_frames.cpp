@@ -39,11 +39,12 @@ OrientedBox typicalVehicle() {
     return {{0, 0}, 21.5, 10, 0};
 }
 
-SampleSet samplesFromImages(const std::vector<LabelledImage>& images, std::uint64_t seed) {
+SampleSet samplesFromImages(const std::vector<LabelledImage>& images, std::uint64_t seed,
+                            const SampleCutting& cutting) {
     SampleSet samples;
     for (std::size_t i = 0; i < images.size(); ++i) {
         const int others = kOthersPerVehicle * std::max<int>(1, static_cast<int>(images[i].vehicles.size()));
-        SampleSet cut = samplesFromImage(images[i], others, typicalVehicle(), seed + i);
+        SampleSet cut = samplesFromImage(images[i], others, typicalVehicle(), seed + i, cutting);
         std::move(cut.begin(), cut.end(), std::back_inserter(samples));
     }
     return samples;

@@ -33,6 +33,7 @@ std::vector<LabelledImage> labelledImagesOf(const TrainingBoxes& boxes, const st
 OrientedBox typicalVehicle();
 
 /// Samples from all images, four others to each vehicle.
-SampleSet samplesFromImages(const std::vector<LabelledImage>& images, std::uint64_t seed);
+SampleSet samplesFromImages(const std::vector<LabelledImage>& images, std::uint64_t seed,
+                            const SampleCutting& cutting = {});
 
 }  // namespace eyrie

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/geometry/oriented_box.h"
+#include "learning/models/window.h"
 
 namespace eyrie {
 
@@ -33,10 +34,21 @@ int countOf(const SampleSet& samples, bool vehicle);
 cv::Mat mirroredAcross(const cv::Mat& window);  ///< left and right exchanged
 cv::Mat mirroredAlong(const cv::Mat& window);   ///< front and rear exchanged
 
-/// Cuts a vehicle out of a CV_8UC1 image, turned upright and scaled so that its box becomes 10 px wide and 21.5 px
-/// long, the size of a median car in the patch sheets, with the context around it that they have. Beyond the image its
-/// border is repeated. Throws Error(input) for boxes without area.
-cv::Mat cutWindow(const cv::Mat& gray, const OrientedBox& vehicle);
+/// How windows are cut out of labelled images.
+struct SampleCutting {
+    WindowFit fit;  ///< by default as in the patch sheets, with the ground around the vehicle that they have
+    bool beside_vehicles = true;  ///< a quarter of the others lie beside or before a vehicle
+    double most_covered = 0.05;   ///< share of another box at a random place that vehicles may cover
+
+    /// To the letter of Teutsch §7.2: a vehicle's box fills the window; others are cut in the same way, at random
+    /// places where no vehicle is visible.
+    static SampleCutting thesis() { return {WindowFit::filled(), false, 0}; }
+};
+
+/// Cuts a vehicle out of a CV_8UC1 image, turned upright and scaled so that its box takes of the window what `fit`
+/// says: by default it becomes 10 px wide and 21.5 px long, the size of a median car in the patch sheets. Beyond the
+/// image its border is repeated. Throws Error(input) for boxes without area.
+cv::Mat cutWindow(const cv::Mat& gray, const OrientedBox& vehicle, const WindowFit& fit = {});
 
 /// An image with everything in it that is a vehicle.
 struct LabelledImage {
@@ -50,10 +62,11 @@ struct LabelledImage {
 /// Length and width in the middle of those of all vehicles; nothing (0, 0) where there are none.
 OrientedBox medianVehicle(const std::vector<OrientedBox>& vehicles);
 
-/// Samples from a labelled image: every vehicle whose centre lies in the image, and `others` windows of the vehicles'
-/// median size (or `typical`, where there is none) at random places and headings that touch neither vehicles nor
-/// unclear areas; a quarter of them beside or before a vehicle, overlapping its box by less than 0.45, to teach where a
-/// vehicle ends.
-SampleSet samplesFromImage(const LabelledImage& image, int others, const OrientedBox& typical, std::uint64_t seed);
+/// Samples from a labelled image: every vehicle of which at most a twentieth lies outside, and `others` windows of the
+/// vehicles' median size (or `typical`, where there is none) at random places and headings that touch neither vehicles
+/// nor unclear areas; by default a quarter of them beside or before a vehicle, overlapping its box by less than 0.45,
+/// to teach where a vehicle ends.
+SampleSet samplesFromImage(const LabelledImage& image, int others, const OrientedBox& typical, std::uint64_t seed,
+                           const SampleCutting& cutting = {});
 
 }  // namespace eyrie

@@ -19,11 +19,14 @@ struct TrainingOptions {
     double others_per_vehicle = 1;       ///< of the first round
     double hard_others_per_vehicle = 1;  ///< added by each hard-negative round, at most
     bool duplicates = false;             ///< use samples that are nearly equal to others, too
+    bool fill_window = false;            ///< samples are, or were, cut as Teutsch §7.2 says: SampleCutting::thesis()
     bool mirrored = true;                ///< vehicles also with sides, and front and rear, exchanged
     double contrast_change = 0.4;        ///< contrast of copies is multiplied by 1 − c … 1 + c
     int varied_copies = 1;               ///< copies of each vehicle with another contrast
     int misfit_copies = 1;               ///< others made of each vehicle by moving it aside or stretching it
 
+    /// How samples are cut out of labelled images.
+    SampleCutting cutting() const { return fill_window ? SampleCutting::thesis() : SampleCutting{}; }
     /// Group "training".
     void describe(ParameterVisitor& visitor);
 };

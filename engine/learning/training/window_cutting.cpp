@@ -13,7 +13,6 @@ namespace {
 
 constexpr int kFinest = 16;               // most samples per window pixel and direction
 constexpr int kAttempts = 40;             // per window wanted, where the image is full of vehicles
-constexpr double kFree = 0.05;            // share of a window's middle that may be covered in the background
 constexpr double kNearestOverlap = 0.45;  // of windows beside a vehicle
 constexpr int kNearEvery = 4;
 
@@ -22,9 +21,9 @@ bool overlapsMore(const OrientedBox& box, const std::vector<OrientedBox>& others
                        [&](const OrientedBox& other) { return overlap(box, other) > most; });
 }
 
-bool covered(const OrientedBox& box, const std::vector<OrientedBox>& by) {
+bool covered(const OrientedBox& box, const std::vector<OrientedBox>& by, double most) {
     return std::any_of(by.begin(), by.end(),
-                       [&](const OrientedBox& other) { return intersectionArea(box, other) > kFree * box.area(); });
+                       [&](const OrientedBox& other) { return intersectionArea(box, other) > most * box.area(); });
 }
 
 /// A vehicle's box pushed away so that it shows only a part of it.
@@ -39,15 +38,15 @@ OrientedBox pushedAside(OrientedBox box, SeededRandom& random) {
 
 }  // namespace
 
-cv::Mat cutWindow(const cv::Mat& gray, const OrientedBox& vehicle) {
+cv::Mat cutWindow(const cv::Mat& gray, const OrientedBox& vehicle, const WindowFit& fit) {
     CV_Assert(gray.type() == CV_8UC1 && !gray.empty());
     const bool usable = std::isfinite(vehicle.centre.x) && std::isfinite(vehicle.centre.y) && vehicle.length > 0 &&
                         vehicle.width > 0 && vehicle.length < 1e5 && vehicle.width < 1e5 &&
                         std::abs(vehicle.centre.x) < 1e5 && std::abs(vehicle.centre.y) < 1e5 &&
                         std::isfinite(vehicle.heading);
     if (!usable) throw Error(ErrorKind::input, "a labelled box has no usable place or size");
-    const double across = vehicle.width / kCarWidthInWindow;  // image px per window px
-    const double along = vehicle.length / kCarLengthInWindow;
+    const double across = vehicle.width / fit.width;  // image px per window px
+    const double along = vehicle.length / fit.length;
     // Finer first, then averaged, so that large vehicles are not sampled with gaps.
     const int finer = std::clamp(static_cast<int>(std::ceil(std::max(across, along) - 0.25)), 1, kFinest);
     const cv::Point2d ahead = vehicle.direction();
@@ -80,11 +79,12 @@ OrientedBox medianVehicle(const std::vector<OrientedBox>& vehicles) {
     return median;
 }
 
-SampleSet samplesFromImage(const LabelledImage& image, int others, const OrientedBox& typical, std::uint64_t seed) {
+SampleSet samplesFromImage(const LabelledImage& image, int others, const OrientedBox& typical, std::uint64_t seed,
+                           const SampleCutting& cutting) {
     SeededRandom random(seed);
     SampleSet samples;
     const auto add = [&](const OrientedBox& box, bool vehicle) {
-        samples.push_back({cutWindow(image.gray, box), vehicle, image.source, image.group, false});
+        samples.push_back({cutWindow(image.gray, box, cutting.fit), vehicle, image.source, image.group, false});
     };
     const auto in_image = [&](const OrientedBox& box) {
         return areaInImage(box, image.gray.size()) > 0.95 * box.area();
@@ -95,7 +95,7 @@ SampleSet samplesFromImage(const LabelledImage& image, int others, const Oriente
     const OrientedBox size = image.vehicles.empty() ? typical : medianVehicle(image.vehicles);
     int taken = 0;
     for (int attempt = 0; attempt < kAttempts * others && taken < others; ++attempt) {
-        const bool near = taken % kNearEvery == 0 && !image.vehicles.empty();
+        const bool near = cutting.beside_vehicles && taken % kNearEvery == 0 && !image.vehicles.empty();
         OrientedBox box = size;
         if (near) {
             const auto which = static_cast<std::size_t>(random.below(static_cast<int>(image.vehicles.size())));
@@ -104,8 +104,9 @@ SampleSet samplesFromImage(const LabelledImage& image, int others, const Oriente
             box.centre = {random.uniform() * image.gray.cols, random.uniform() * image.gray.rows};
             box.heading = random.between(-kPi, kPi);
         }
-        const bool vehicle = near ? overlapsMore(box, image.vehicles, kNearestOverlap) : covered(box, image.vehicles);
-        if (!in_image(box) || vehicle || covered(box, image.unclear)) continue;
+        const bool vehicle = near ? overlapsMore(box, image.vehicles, kNearestOverlap)
+                                  : covered(box, image.vehicles, cutting.most_covered);
+        if (!in_image(box) || vehicle || covered(box, image.unclear, cutting.most_covered)) continue;
         add(box, false);
         ++taken;
     }

@@ -173,8 +173,10 @@ void LabelTraining::work(const TrainingWish& wish, const BackgroundTask& task) {
     auto report = std::make_shared<TrainingReport>();
     report->held_out = holdOut(std::move(sequences), train, test);
     const auto seed = static_cast<std::uint64_t>(wish.options.seed);
-    const SampleSet samples = samplesFromImages(train, seed);
-    const SampleSet held_out = samplesFromImages(test, seed + 100'000);
+    const SampleSet samples = samplesFromImages(train, seed, wish.options.cutting());
+    SampleCutting cutting = wish.options.cutting();
+    const auto heldOut = [&] { return samplesFromImages(test, seed + 100'000, cutting); };
+    const SampleSet held_out = heldOut();
     report->samples = countsOf(samples);
     report->held_out += QStringLiteral(" – ") + countsOf(held_out);
     TrainingRecord record;
@@ -191,7 +193,10 @@ void LabelTraining::work(const TrainingWish& wish, const BackgroundTask& task) {
     saveModel(*model, wish.file);
     report->file = wish.file;
     report->own = rocOf(*model, held_out);
-    report->shipped = rocOf(loadModel(modelLocation({})), held_out);
+    // The same places, cut as the other model was trained.
+    const VehicleModel shipped = loadModel(modelLocation({}));
+    cutting.fit = shipped.fit;
+    report->shipped = rocOf(shipped, heldOut());
     end([this, report] { emit finished(report); });
 }
 
