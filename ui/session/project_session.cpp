@@ -239,6 +239,7 @@ void ProjectSession::startRun() {
     request.gsd_m_per_px = settings_.gsd_m_per_px;
     request.gsd_origin = settings_.gsd_origin;
     request.range = settings_.range;
+    request.recording = settings_.recording;
     beginRun(std::move(request));
 }
 
@@ -274,6 +275,7 @@ void ProjectSession::watchLive(LiveRequest request) {
     playback_.pause();
     request.options = settings_.options;
     request.preset = settings_.preset;
+    request.details = settings_.recording;
     request.stream.with_colour = true;
     live_ = request;
     run_project_.clear();

@@ -116,8 +116,8 @@ class ProjectSession : public QObject {
     void startRun();
     void stopRun() { controller_.stop(); }
     /// Watches a live source: once it answers, its recording is the video, and the run over it works in its project,
-    /// which is opened. Until then all stays as it is; see liveRefused(). Ends by stopRun(). Parameters and preset are
-    /// those of the settings. Not while a run works.
+    /// which is opened. Until then all stays as it is; see liveRefused(). Ends by stopRun(). Parameters, preset and
+    /// what is kept are those of the settings. Not while a run works.
     void watchLive(LiveRequest request);
     /// The live source that is watched or waited for; null: none.
     const LiveRequest* liveSource() const { return live_ ? &*live_ : nullptr; }
