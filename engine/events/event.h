@@ -28,7 +28,7 @@ struct Event {
     cv::Point2d ground{0, 0};  ///< the same place on the ground, px in `ground_frame`
     double figure = 0;         ///< what it counts depends on the kind, see docs/manual.md
     FigureUnit unit = FigureUnit::none;
-    std::string zone;  ///< of enters, exits and crosses
+    std::string zone;  ///< of enters, exits and crosses; of against the flow the arrow that told, if one did
     CrossingSense sense = CrossingSense::none;
 };
 

@@ -77,6 +77,11 @@ void describeOthers(EventOptions& options, const ParameterDeclarer& declare) {
     declare.real(
         "events.flow_share", options.flow_share, 0, 1,
         {"", "Largest share of the tracks of a place that go the same way as one that drives against the flow.", ""});
+    declare.real("events.arrow_radius", options.arrow_radius_m, 0.5, 100,
+                 {"m",
+                  "So far around an arrow that a person drew its direction is the right one, whatever others do; of "
+                  "several the nearest counts. More than half a lane reaches into the next one.",
+                  ""});
     declare.real("events.against_angle", options.against_angle_deg, 90, 180,
                  {"degrees", "Directions that differ by more than this are against each other.", ""});
     declare.real("events.flow_way", options.flow_way_m, 0, 500,

@@ -34,6 +34,7 @@ struct EventOptions {
     double flow_radius_m = 2;
     int flow_tracks = 5;
     double flow_share = 0.2;
+    double arrow_radius_m = 2.5;
     double against_angle_deg = 120;
     double flow_way_m = 10;
     double off_flow_m = 5;

@@ -62,7 +62,7 @@ std::vector<Event> findEvents(const std::vector<EventTrack>& tracks, const Foota
     findTurnBacks(scene, events);
     findSpeeds(scene, events);
     findLoitering(scene, events);
-    findFlowEvents(scene, events);
+    findFlowEvents(scene, zones, events);
     findConvoys(scene, events);
     findMeetings(scene, events);
     findZoneEvents(scene, zones, events);

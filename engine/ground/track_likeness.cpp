@@ -236,7 +236,7 @@ TrackLikeness likenessOf(const LikenessFacts& chosen, const LikenessFacts& other
         found.path = common.agreement / common.way * std::pow(share, kPartialWayPower);
     }
     if (common.agreement > 0) found.speed = common.speed / common.agreement;
-    found.likeness = std::sqrt(found.path * std::sqrt(found.speed * found.size));
+    found.likeness = likenessBy(found, {});
     return found;
 }
 
@@ -255,6 +255,30 @@ double unitOf(const StoredTracks& run, const GroundStretches& ground) {
 }
 
 }  // namespace
+
+double likenessBy(const TrackLikeness& parts, const LikenessChoice& counts) {
+    double product = 1;
+    double weights = 0;
+    const auto take = [&](bool counted, double value, double weight) {
+        if (!counted) return;
+        product *= std::pow(value, weight);
+        weights += weight;
+    };
+    take(counts.path, parts.path, 2);
+    take(counts.speed, parts.speed, 1);
+    take(counts.size, parts.size, 1);
+    take(counts.looks && parts.looks, parts.looks.value_or(0), 2);
+    return weights > 0 ? std::pow(product, 1 / weights) : 0;
+}
+
+void compareLooks(std::vector<TrackLikeness>& found, const LooksByTrack& looks, TrackId chosen) {
+    const auto mine = looks.find(chosen);
+    if (mine == looks.end()) return;
+    for (TrackLikeness& each : found) {
+        const auto other = looks.find(each.track);
+        if (other != looks.end()) each.looks = lookLikeness(mine->second, other->second);
+    }
+}
 
 std::vector<TrackLikeness> tracksLike(const StoredTracks& run, const GroundStretches& ground, TrackId chosen,
                                       const EventOptions& options) {

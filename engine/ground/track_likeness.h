@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "events/event_options.h"
 #include "events/ground/ground_stretches.h"
 #include "events/stored_events.h"
+#include "ground/track_looks.h"
 
 namespace eyrie {
 
@@ -15,7 +17,7 @@ namespace eyrie {
 /// vehicle of the run is taken to be as long as a usual car.
 struct TrackLikeness {
     TrackId track = 0;
-    /// path^½ · speed^¼ · size^¼: what is unlike in one of them is not like.
+    /// likenessBy() of what counts where nothing else is said: path^½ · speed^¼ · size^¼.
     double likeness = 0;
     /// Over the stretch that both drove: exp(−½ (d / 3 m)²) · max(0, cos δ), its mean over the way; d: from one path to
     /// the other, δ: between their directions. 3 m are about the width of a lane: the next one counts .6, the
@@ -27,10 +29,30 @@ struct TrackLikeness {
     double speed = 0;
     /// exp(−½ (ln²(l / l′) + ln²(w / w′)) / .3²) of the median length and width: 10 % are .95, 50 % longer .40.
     double size = 0;
+    /// lookLikeness(); nothing where the pictures of one of the two are not known: see compareLooks().
+    std::optional<double> looks = {};
 };
 
+/// What of it counts.
+struct LikenessChoice {
+    bool path = true;
+    bool speed = true;
+    bool size = true;
+    bool looks = false;  ///< needs pictures to be read
+
+    bool any() const { return path || speed || size || looks; }
+    bool operator==(const LikenessChoice&) const = default;
+};
+
+/// The geometric mean of what counts, path and looks twice: what is unlike in one of them is not like. Looks that are
+/// not known are left out of it; 0 where nothing is left.
+double likenessBy(const TrackLikeness& parts, const LikenessChoice& counts);
+
+/// Adds the likeness of looks to that of tracks like `chosen`.
+void compareLooks(std::vector<TrackLikeness>& found, const LooksByTrack& looks, TrackId chosen);
+
 /// All other tracks of the run, the most like first; equally like ones by speed and size, then by id. What vehicles
-/// look like does not count: runs need not keep pictures of them. `ground` must be that of the run's footage. Throws
+/// look like is not known: runs need not keep pictures of them. `ground` must be that of the run's footage. Throws
 /// Error(parameter) where the run has no such track.
 std::vector<TrackLikeness> tracksLike(const StoredTracks& run, const GroundStretches& ground, TrackId chosen,
                                       const EventOptions& options = {});

@@ -219,6 +219,21 @@ TEST_F(EventsCommand, ZonesOfTheProjectAreWatchedWhereNoFileIsGiven) {
     EXPECT_THAT(textOf("r.html"), AllOf(HasSubstr("Watched: gate 200, a line."), HasSubstr("crosses: gate 300")));
 }
 
+TEST_F(EventsCommand, AnArrowOfTheProjectSaysWhichWayIsRight) {
+    EXPECT_THAT(call({"--project", "@p.eyrie", "--kind", "against the flow"}).output, Not(HasSubstr("against")));
+    {
+        ProjectFile project = ProjectFile::open(folder_ / "p.eyrie");
+        ReviewStore store(project, 1);
+        StoredZone arrow;
+        arrow.id = store.newZoneId();
+        arrow.zone = {"lane", ZoneShape::arrow, ZoneAnchor::ground, 0, {{400, 200}, {50, 200}}};
+        store.apply({"Add", {}, {}, {{std::nullopt, arrow}}});
+    }
+    const auto result = call({"--project", "@p.eyrie", "--kind", "against the flow"});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    EXPECT_THAT(result.output, AllOf(HasSubstr("against the flow"), HasSubstr("lane"), HasSubstr("1 event")));
+}
+
 TEST_F(EventsCommand, BadZonesAreRefusedWithTheirPlace) {
     write("flat.json", R"({"eyrie_zones": 1, "zones": [{"name": "a", "points": [[0, 0], [5, 5], [9, 9]]}]})");
     write("broken.json", R"({"eyrie_zones": 1, "zones": [{"name": "a",)");

@@ -47,6 +47,9 @@ TEST(Zone, FaultsAreThoseThatMakeItUseless) {
     EXPECT_EQ(fault(ZoneShape::line, {{0, 0}, {30, 0}}), "");
     EXPECT_EQ(fault(ZoneShape::line, {{5, 5}, {5, 5}}), "the line has no length");
     EXPECT_EQ(fault(ZoneShape::line, {{5, 5}}), "a line needs two points or more");
+    EXPECT_EQ(fault(ZoneShape::arrow, {{0, 0}, {30, 0}, {40, 5}}), "");
+    EXPECT_EQ(fault(ZoneShape::arrow, {{5, 5}, {5, 5}}), "the arrow has no length");
+    EXPECT_EQ(fault(ZoneShape::arrow, {{5, 5}}), "an arrow needs two points or more");
     EXPECT_EQ(fault(ZoneShape::area, {{0, 0}, {30, 0}}), "an area needs three points or more");
     EXPECT_EQ(fault(ZoneShape::area, {{0, 0}, {30, 0}, {30, 20}}), "");
     EXPECT_EQ(fault(ZoneShape::area, {{0, 0}, {30, 0}, {30, 20}, {0, 20}}), "");

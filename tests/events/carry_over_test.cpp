@@ -83,6 +83,24 @@ TEST(CarryOver, InTheSameRunEveryEventKeepsItsVerdict) {
     EXPECT_THAT(carried.left, IsEmpty());
 }
 
+TEST(CarryOver, AVerdictOnWhoDrivesAgainstTheFlowStaysWithAndWithoutAnArrowThatSaysIt) {
+    test::DrivenTracks driven;
+    for (int i = 0; i < 8; ++i) driven.drive({-10, 62}, 0, {{40, 45, 45}}, 40 * i);
+    driven.drive({210, 62}, 180, {{40, 45, 45}}, 300);
+    const StoredTracks run = runOf(driven);
+    const Zone arrow{"lane", ZoneShape::arrow, ZoneAnchor::ground, 0, {{5, 310}, {995, 310}}};
+    const auto learned = driven.events(EventKind::against_flow);
+    const auto drawn = driven.events(EventKind::against_flow, {}, {arrow});
+    ASSERT_EQ(learned.size(), 1U);
+    ASSERT_EQ(drawn.size(), 1U);
+    ASSERT_EQ(drawn[0].zone, "lane");
+    EXPECT_THAT(carryOver(verdictsOn(learned, run), drawn, {}, run, {arrow}).of_event, testing::ElementsAre(1));
+    EXPECT_THAT(carryOver(verdictsOn(drawn, run), learned, {}, run, {}).of_event, testing::ElementsAre(1));
+    const auto gone = carryOver(verdictsOn(drawn, run), {}, {}, run, {});
+    ASSERT_EQ(gone.left.size(), 1U);
+    EXPECT_EQ(gone.left[0].fault, CarryFault::no_event) << "searched all the same";
+}
+
 TEST(CarryOver, AnotherRunTakesVerdictsOverForTheSameVehicles) {
     test::DrivenTracks driven;
     drive(driven);

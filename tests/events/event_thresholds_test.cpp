@@ -32,9 +32,11 @@ std::vector<Event> eventsWith(const DrivenTracks& scene, const Threshold& thresh
     EventOptions options;
     setParameters(describeOf(options), threshold.others);
     setParameters(describeOf(options), values);
-    // Across the ground and down the picture at x = 100 m; a square of 40 m about its middle.
+    // Across the ground and down the picture at x = 100 m; to the right at y = 110 m; a square of 40 m about its
+    // middle.
     const std::vector<Zone> zones = {
         {"line", ZoneShape::line, ZoneAnchor::ground, 0, {{500, 50}, {500, 550}}},
+        {"arrow", ZoneShape::arrow, ZoneAnchor::ground, 0, {{300, 550}, {800, 550}}},
         {"square", ZoneShape::area, ZoneAnchor::image, 0, {{400, 200}, {600, 200}, {600, 400}, {400, 400}}}};
     return scene.events(threshold.kind, options, zones);
 }
@@ -119,6 +121,10 @@ void drivesBesideTheFlow(DrivenTracks& scene) {
 void drivesAgainstSix(DrivenTracks& scene) {
     for (int i = 0; i < 6; ++i) scene.drive({-10, 62}, 0, {{40, 45, 45}}, 40 * i);
     scene.drive({120, 62}, 180, {{4, 18, 18}}, 100);
+}
+/// One alone, 20 m to the left, 3 m beside the arrow.
+void drivesBesideTheArrow(DrivenTracks& scene) {
+    scene.drive({120, 113}, 180, {{4, 18, 18}}, 100);
 }
 /// Three drive against nine, so that two of eleven others go the same way as each of them.
 void threeDriveAgainstNine(DrivenTracks& scene) {
@@ -216,6 +222,7 @@ const std::vector<Threshold> kThresholds = {
     {"events.flow_radius", "2", "4", EventKind::against_flow, 0, 1, drivesBesideTheFlow},
     {"events.flow_tracks", "6", "7", EventKind::against_flow, 1, 0, drivesAgainstSix},
     {"events.flow_share", "0.17", "0.19", EventKind::against_flow, 0, 3, threeDriveAgainstNine},
+    {"events.arrow_radius", "2.8", "3.2", EventKind::against_flow, 0, 1, drivesBesideTheArrow},
     {"events.against_angle", "138", "142", EventKind::against_flow, 1, 0, crossesTheFlow, {{"events.flow_way", "2"}}},
     {"events.flow_way", "19", "21", EventKind::against_flow, 1, 0, drivesAgainstSix},
     {"events.flow_way", "36", "44", EventKind::leaves_flow, 1, 0, leavesAndEnds},

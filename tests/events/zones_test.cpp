@@ -150,6 +150,11 @@ TEST_F(ZoneSteps, WhatIsThereAlreadyIsNotAddedAgain) {
     applyEdit(set_, changeZone(set_, 1, [](StoredZone& zone) { zone.zone.name = "zone 1"; }, {"Bo", kNow}));
     EXPECT_EQ(newZoneName(set_, ZoneShape::area), "zone 2");
     EXPECT_EQ(newZoneName(set_, ZoneShape::line), "line 1");
+    EXPECT_EQ(newZoneName(set_, ZoneShape::arrow), "arrow 1");
+    Zone arrow = line();
+    arrow.name = "arrow 1";
+    arrow.shape = ZoneShape::arrow;
+    EXPECT_EQ(added({arrow}).name, "Add arrow \"arrow 1\"");
 }
 
 TEST_F(ZoneSteps, ARenamedZoneKeepsWhatWasSaidAboutItsEvents) {
@@ -217,7 +222,7 @@ TEST_F(ZoneFiles, WhatIsWrongIsToldWithItsPlace) {
     EXPECT_THAT(messageOf(withZone(R"({"points": [[0, 0], [9, 0], [9, 9]]})")), HasSubstr("\"name\" is missing"));
     EXPECT_THAT(messageOf(withZone(R"({"name": "a", "pionts": []})")), HasSubstr("did you mean \"points\"?"));
     EXPECT_THAT(messageOf(withZone(R"({"name": "a", "shape": "circle", "points": []})")),
-                HasSubstr("zones[0].shape: is \"circle\", expected \"area\" or \"line\""));
+                HasSubstr("zones[0].shape: is \"circle\", expected \"area\", \"line\" or \"arrow\""));
     EXPECT_THAT(messageOf(withZone(R"({"name": "a", "points": [[0, 0], [9, 0], [9]]})")),
                 HasSubstr("zones[0].points[2]: is not a point"));
     EXPECT_THAT(messageOf(withZone(R"({"name": "a", "points": [[0, 0], [9, "x"], [9, 9]]})")),
@@ -237,8 +242,11 @@ TEST_F(ZoneFiles, WhatIsWrittenIsReadToTheBit) {
     odd.points[0] = {400 + 1 / 3.0, -0.1};
     Zone fixed = line();
     fixed.anchor = ZoneAnchor::image;
-    writeZones(folder_ / "out.json", {odd, fixed});
-    EXPECT_EQ(readZones(folder_ / "out.json"), (std::vector<Zone>{odd, fixed}));
+    Zone arrow = line();
+    arrow.name = "lane";
+    arrow.shape = ZoneShape::arrow;
+    writeZones(folder_ / "out.json", {odd, fixed, arrow});
+    EXPECT_EQ(readZones(folder_ / "out.json"), (std::vector<Zone>{odd, fixed, arrow}));
 }
 
 TEST_F(ZoneFiles, AZoneWithoutAreaIsRefused) {

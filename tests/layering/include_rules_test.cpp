@@ -76,7 +76,7 @@ const std::map<std::string, std::set<std::string>> allowed = {
     {"scoring", {"core", "annotation", "evaluation", "formats", "io", "store"}},
     {"correction", {"core", "annotation", "store"}},
     {"events", {"core", "annotation", "correction", "formats", "io", "store"}},
-    {"ground", {"core", "annotation", "events"}},
+    {"ground", {"core", "annotation", "events", "learning"}},
     {"diagnosis", {"core", "chain", "rerun", "evaluation", "io", "motion", "scoring", "store"}},
 };
 

@@ -61,6 +61,15 @@ void ProjectSession::takeLists(const ProjectLists& lists) {
     last_removed_run_ = lists.last_removed;
     resumable_runs_ = lists.resumable;
     sequences_ = lists.sequences;
+    starts_ = lists.starts;
+}
+
+std::optional<std::int64_t> ProjectSession::givenStart() const {
+    if (!media_) return std::nullopt;
+    for (const SequenceRecord& sequence : sequences_)
+        if (sequence.path == media_->identity)
+            if (const auto found = starts_.find(sequence.id); found != starts_.end()) return found->second;
+    return std::nullopt;
 }
 
 void ProjectSession::listsRead(const ProjectLists& lists) {
@@ -68,8 +77,10 @@ void ProjectSession::listsRead(const ProjectLists& lists) {
     std::optional<RunRecord> before;
     if (current_run_)
         if (const RunRecord* run = findRun(*current_run_)) before = *run;
+    const auto start_before = givenStart();
     takeLists(lists);
     emit changed(SessionChange::runs);
+    if (givenStart() != start_before) emit changed(SessionChange::start);
     if (!before) return;
     const RunRecord* now = findRun(before->id);
     if (now == nullptr || !hasGrown(*before, *now)) return;
@@ -239,6 +250,7 @@ void ProjectSession::startRun() {
     request.gsd_m_per_px = settings_.gsd_m_per_px;
     request.gsd_origin = settings_.gsd_origin;
     request.range = settings_.range;
+    request.recording = settings_.recording;
     beginRun(std::move(request));
 }
 
@@ -274,6 +286,7 @@ void ProjectSession::watchLive(LiveRequest request) {
     playback_.pause();
     request.options = settings_.options;
     request.preset = settings_.preset;
+    request.details = settings_.recording;
     request.stream.with_colour = true;
     live_ = request;
     run_project_.clear();

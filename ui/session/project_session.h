@@ -4,7 +4,9 @@
 #include <QObject>
 #include <QTimer>
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -25,6 +27,7 @@ enum class SessionChange {
     project,  ///< another one, or none
     opened,   ///< video and project are open
     runs,     ///< the list of runs
+    start,    ///< givenStart(), by whatever program
     current_run,
     run_data,  ///< the lists of the current run were read
     frame,     ///< currentFrame()
@@ -77,6 +80,8 @@ class ProjectSession : public QObject {
     /// Nothing when no video is open; a missing video of a project has its size and length from the project.
     const std::optional<VideoInfo>& video() const { return video_; }
     const std::vector<std::int64_t>& timesUs() const { return times_us_; }
+    /// When the video began, as a person said and the project kept it when it was read last: µs since 1970-01-01.
+    std::optional<std::int64_t> givenStart() const;
     /// For people: which of the files of a video in parts a frame lies in, and where; empty where it is one file.
     QString partText(FrameIndex frame) const;
     const std::filesystem::path& project() const { return project_; }
@@ -116,8 +121,8 @@ class ProjectSession : public QObject {
     void startRun();
     void stopRun() { controller_.stop(); }
     /// Watches a live source: once it answers, its recording is the video, and the run over it works in its project,
-    /// which is opened. Until then all stays as it is; see liveRefused(). Ends by stopRun(). Parameters and preset are
-    /// those of the settings. Not while a run works.
+    /// which is opened. Until then all stays as it is; see liveRefused(). Ends by stopRun(). Parameters, preset and
+    /// what is kept are those of the settings. Not while a run works.
     void watchLive(LiveRequest request);
     /// The live source that is watched or waited for; null: none.
     const LiveRequest* liveSource() const { return live_ ? &*live_ : nullptr; }
@@ -250,6 +255,7 @@ class ProjectSession : public QObject {
     std::optional<RunRecord> last_removed_run_;
     std::vector<int> resumable_runs_;
     std::vector<SequenceRecord> sequences_;
+    std::map<int, std::int64_t> starts_;     ///< ProjectLists::starts
     std::optional<SequenceRecord> missing_;  ///< the video shown, if it cannot be found
     std::optional<int> current_run_;
     std::shared_ptr<const RunData> run_data_;

@@ -99,7 +99,7 @@ void RunController::work(const RunRequest& request, LiveFeed& feed, const Backgr
             record.scale_basis = chosen.basis;
             record.name = request.name;
             record.sequence.path = request.media.identity;
-            RunRecorder recorder(request.project, record, request.options, &feed);
+            RunRecorder recorder(request.project, record, request.options, &feed, request.recording);
             run_id = recorder.runId();
             record.id = run_id;
             task.tell([this, record] { emit started(record); });

@@ -26,8 +26,9 @@ struct RunRequest {
     double gsd_m_per_px = 0;                      ///< ≤ 0: not known
     ScaleOrigin gsd_origin = ScaleOrigin::given;  ///< of a GSD that is known
     FrameRange range;
+    RecordingOptions recording;
     int trail_length = 40;
-    int resume_run = 0;  ///< > 0: goes on with this run of the project; options, scale, range and name are the run's
+    int resume_run = 0;  ///< > 0: goes on with this run of the project; all but media and project are the run's
 };
 
 /// The only object of the window that starts the engine. One run at a time, in the background; what it finds goes into

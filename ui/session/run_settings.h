@@ -5,6 +5,7 @@
 #include "chain/chain_options.h"
 #include "chain/chain_run.h"
 #include "core/values/scale_basis.h"
+#include "store/details/recording_options.h"
 
 namespace eyrie::ui {
 
@@ -15,6 +16,7 @@ struct RunSettings {
     double gsd_m_per_px = 0;                      ///< 0: not known
     ScaleOrigin gsd_origin = ScaleOrigin::given;  ///< of a GSD that is known: `given` or `metadata`
     FrameRange range;
+    RecordingOptions recording;  ///< what the run keeps; changes nothing of what it finds
 
     /// Another GSD, with where it comes from.
     void useGsd(double value, ScaleOrigin origin = ScaleOrigin::given) {

@@ -276,6 +276,12 @@ void WindowActions::addEvents() {
                    {QKeySequence(tr("Ctrl+Shift+L"))},
                    QT_TR_NOOP("Click the points of a line to watch: which vehicles cross it, and to which side")},
                   false);
+    draw_arrow = addToggle(tr("Draw an arro&w"),
+                           {nullptr,
+                            {QKeySequence(tr("Ctrl+Shift+D"))},
+                            QT_TR_NOOP("Click along a lane in the direction that is right there: who drives the other "
+                                       "way drives against the flow")},
+                           false);
     control_points = addToggle(tr("Set &ground control points"),
                                {nullptr,
                                 {QKeySequence(tr("Ctrl+Shift+K"))},

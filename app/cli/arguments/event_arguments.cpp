@@ -32,7 +32,7 @@ void addUncorrected(CLI::App& command, bool& uncorrected) {
 }
 
 void EventArguments::addSearchTo(CLI::App& command) {
-    command.add_option("--zone", zones, "JSON file of zones and lines to be watched (default: those of the project)")
+    command.add_option("--zone", zones, "JSON file of zones, lines and arrows (default: those of the project)")
         ->type_name("FILE");
     command
         .add_option("--set", settings,

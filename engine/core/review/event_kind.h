@@ -14,7 +14,7 @@ enum class EventKind {
     stops,         ///< it drove and comes to stand
     stands,        ///< it does not move for some time
     turns_back,    ///< it drives back where it came from
-    against_flow,  ///< it drives where others come the other way
+    against_flow,  ///< it drives where others come the other way, or an arrow points the other way
     leaves_flow,   ///< it turns off to where no other drives
     over_speed,    ///< faster than a limit
     under_speed,   ///< slower than a limit without standing

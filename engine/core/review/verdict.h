@@ -34,7 +34,7 @@ struct ReviewSubject {
     cv::Point2d place{0, 0};  ///< px in `frame`; of no meaning without a kind
     FrameIndex ground_frame = 0;
     cv::Point2d ground{0, 0};  ///< the same place on the ground, px in `ground_frame`, by the run that was judged
-    std::string zone;          ///< of enters, exits and crosses
+    std::string zone;          ///< of enters, exits and crosses; of against the flow where an arrow told
     CrossingSense sense = CrossingSense::none;
 
     bool operator==(const ReviewSubject&) const = default;

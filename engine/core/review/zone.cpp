@@ -1,6 +1,7 @@
 #include "core/review/zone.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -43,17 +44,23 @@ std::string faultOf(const Zone& zone) {
     const std::vector<cv::Point2d>& p = zone.points;
     if (std::any_of(p.begin(), p.end(), [](cv::Point2d at) { return !std::isfinite(at.x) || !std::isfinite(at.y); }))
         return "a point has no place";
-    if (zone.shape == ZoneShape::line) {
+    if (zone.shape != ZoneShape::area) {
         double length = 0;
         for (std::size_t i = 1; i < p.size(); ++i) length += std::hypot(p[i].x - p[i - 1].x, p[i].y - p[i - 1].y);
-        if (p.size() < 2) return "a line needs two points or more";
-        return length < kShortestLine ? "the line has no length" : "";
+        const std::string what = nameOf(zone.shape);
+        if (p.size() < 2) return (zone.shape == ZoneShape::arrow ? "an " : "a ") + what + " needs two points or more";
+        return length < kShortestLine ? "the " + what + " has no length" : "";
     }
     if (p.size() < 3) return "an area needs three points or more";
     if (crossesItself(p)) return "the outline crosses itself";
     double area = 0;
     for (std::size_t i = 1; i + 1 < p.size(); ++i) area += side(p[0], p[i], p[i + 1]) / 2;
     return std::abs(area) < kSmallestArea ? "the zone has no area" : "";
+}
+
+const char* nameOf(ZoneShape shape) {
+    constexpr std::array<const char*, 3> kNames = {"zone", "line", "arrow"};
+    return kNames.at(static_cast<std::size_t>(shape));
 }
 
 std::vector<Zone> zonesOf(const std::map<int, StoredZone>& stored) {

@@ -9,16 +9,20 @@
 
 namespace eyrie {
 
-enum class ZoneShape { area, line };
+enum class ZoneShape {
+    area,  ///< it is entered and left
+    line,  ///< it is crossed
+    arrow  ///< it says which way is right near it
+};
 enum class ZoneAnchor { image, ground };
 
-/// A place that somebody watches.
+/// A place that somebody watches, or says the right way of.
 struct Zone {
     std::string name;
     ZoneShape shape = ZoneShape::area;
     ZoneAnchor anchor = ZoneAnchor::ground;
     FrameIndex frame = 0;             ///< in which the points are meant, if fixed to the ground
-    std::vector<cv::Point2d> points;  ///< px; corners of an area, or the line from its first to its last point
+    std::vector<cv::Point2d> points;  ///< px; corners of an area, or the line or arrow from its first to its last point
 
     bool operator==(const Zone&) const = default;
 };
@@ -36,6 +40,9 @@ struct StoredZone {
 
     bool operator==(const StoredZone&) const = default;
 };
+
+/// "zone", "line" or "arrow": what people call one.
+const char* nameOf(ZoneShape shape);
 
 /// The zones by themselves, in the order of their numbers: what events are searched with.
 std::vector<Zone> zonesOf(const std::map<int, StoredZone>& stored);

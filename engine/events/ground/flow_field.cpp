@@ -7,12 +7,6 @@
 #include "core/geometry/angle.h"
 
 namespace eyrie {
-namespace {
-
-constexpr double kAlong = kPi / 3;
-
-}  // namespace
-
 std::size_t FlowField::binOf(double direction) {
     const double turns = direction / (2 * kPi);
     const int bin = static_cast<int>((turns - std::floor(turns)) * kBins);

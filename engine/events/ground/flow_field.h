@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "core/geometry/angle.h"
 #include "events/ground/ground_path.h"
 
 namespace eyrie {
@@ -16,6 +17,8 @@ class FlowField {
     /// Tracks count wherever they come within `radius_m`.
     explicit FlowField(double radius_m) : radius_(radius_m) {}
 
+    static constexpr double kAlong = kPi / 3;  ///< radians: directions that differ by no more are alike
+
     /// Directions (radians) of one track by places it passes.
     using Votes = std::unordered_map<std::uint64_t, double>;
     Votes votesOf(const GroundPath& path) const;
@@ -23,7 +26,7 @@ class FlowField {
 
     /// The other tracks at a place, by their direction relative to one that is asked about.
     struct Others {
-        int along = 0;    ///< within 60 degrees
+        int along = 0;    ///< within kAlong
         int against = 0;  ///< further away than the angle that was given
         int all = 0;
     };

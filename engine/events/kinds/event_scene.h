@@ -34,7 +34,8 @@ void findStandstills(const EventScene& scene, std::vector<Event>& events);    //
 void findTurnBacks(const EventScene& scene, std::vector<Event>& events);      // turns back
 void findSpeeds(const EventScene& scene, std::vector<Event>& events);         // over and under speed
 void findLoitering(const EventScene& scene, std::vector<Event>& events);      // loiters
-void findFlowEvents(const EventScene& scene, std::vector<Event>& events);     // against the flow, leaves the flow
+void findFlowEvents(const EventScene& scene, const std::vector<Zone>& zones,  // against the flow, leaves the flow
+                    std::vector<Event>& events);
 void findConvoys(const EventScene& scene, std::vector<Event>& events);        // convoy
 void findMeetings(const EventScene& scene, std::vector<Event>& events);       // meeting
 void findZoneEvents(const EventScene& scene, const std::vector<Zone>& zones,  // enters, exits, crosses

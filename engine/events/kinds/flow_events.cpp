@@ -3,6 +3,7 @@
 
 #include "core/geometry/angle.h"
 #include "events/ground/flow_field.h"
+#include "events/kinds/drawn_ways.h"
 #include "events/kinds/event_scene.h"
 
 namespace eyrie {
@@ -22,18 +23,38 @@ enum class FlowVerdict {
 struct Flow {
     FlowField near;  ///< who passes a place
     FlowField wide;  ///< who comes near it
+    DrawnWays drawn;
 };
 
-std::vector<FlowVerdict> verdictsOn(const EventScene& scene, const GroundPath& path, const Flow& flow) {
+/// How the samples of a path lie, and the arrows that told, where one did.
+struct PathVerdicts {
+    std::vector<FlowVerdict> of_sample;
+    std::vector<const Zone*> arrows;  ///< of each sample; null: others told
+};
+
+FlowVerdict verdictOn(double direction, const DrawnWay& right, double against) {
+    const double turn = std::abs(turnBetween(direction, right.direction));
+    if (turn > against) return FlowVerdict::against;
+    return turn <= FlowField::kAlong ? FlowVerdict::along : FlowVerdict::none;
+}
+
+PathVerdicts verdictsOn(const EventScene& scene, const GroundPath& path, const Flow& flow) {
     const EventOptions& o = scene.options;
     const FlowField::Votes near = flow.near.votesOf(path);
     const FlowField::Votes wide = flow.wide.votesOf(path);
     const double against = radiansFromDegrees(o.against_angle_deg);
-    std::vector<FlowVerdict> verdicts(path.samples.size(), FlowVerdict::none);
+    PathVerdicts told{std::vector<FlowVerdict>(path.samples.size(), FlowVerdict::none),
+                      std::vector<const Zone*>(path.samples.size(), nullptr)};
+    std::vector<FlowVerdict>& verdicts = told.of_sample;
     for (std::size_t i = 0; i < path.samples.size(); ++i) {
         const GroundSample& sample = path.samples[i];
         if (!sample.moving) continue;
         const double direction = std::atan2(sample.velocity.y, sample.velocity.x);
+        if (const auto right = flow.drawn.at(sample)) {  // a person knows better than what most do
+            verdicts[i] = verdictOn(direction, *right, against);
+            told.arrows[i] = right->arrow;
+            continue;
+        }
         const FlowField::Others others = flow.near.othersAt(sample.at, direction, against, near);
         if (others.against >= o.flow_tracks && others.along <= o.flow_share * others.all) {
             verdicts[i] = FlowVerdict::against;
@@ -43,7 +64,7 @@ std::vector<FlowVerdict> verdictsOn(const EventScene& scene, const GroundPath& p
             verdicts[i] = FlowVerdict::off;
         }
     }
-    return verdicts;
+    return told;
 }
 
 /// Spans of one verdict that are long enough; short interruptions that say nothing else belong to them.
@@ -95,12 +116,15 @@ std::pair<std::size_t, double> furthestBeside(const GroundPath& path, const Grou
     return furthest;
 }
 
-void addAgainst(const EventScene& scene, const GroundPath& path, const std::vector<FlowVerdict>& verdicts,
+void addAgainst(const EventScene& scene, const GroundPath& path, const PathVerdicts& verdicts,
                 std::vector<Event>& events) {
-    for (const SampleSpan& span : longSpans(scene, path, verdicts, FlowVerdict::against)) {
+    for (const SampleSpan& span : longSpans(scene, path, verdicts.of_sample, FlowVerdict::against)) {
         const std::size_t middle = (span.first + span.last) / 2;
         Event event = eventAt(scene, EventKind::against_flow, path, span, middle);
         setLength(event, scene, wayBetween(path, span.first, span.last));
+        for (std::size_t i = span.first; i <= span.last && event.zone.empty(); ++i)
+            if (verdicts.arrows[i] != nullptr && verdicts.of_sample[i] == FlowVerdict::against)
+                event.zone = verdicts.arrows[i]->name;
         events.push_back(event);
     }
 }
@@ -125,9 +149,12 @@ void addLeaving(const EventScene& scene, const GroundPath& path, const std::vect
 
 }  // namespace
 
-void findFlowEvents(const EventScene& scene, std::vector<Event>& events) {
+void findFlowEvents(const EventScene& scene, const std::vector<Zone>& zones, std::vector<Event>& events) {
     const EventOptions& o = scene.options;
-    std::vector<Flow> flows(scene.ground.all().size(), {FlowField(o.flow_radius_m), FlowField(o.off_flow_m)});
+    std::vector<Flow> flows;
+    for (std::size_t i = 0; i < scene.ground.all().size(); ++i)
+        flows.push_back(
+            {FlowField(o.flow_radius_m), FlowField(o.off_flow_m), DrawnWays(scene, zones, static_cast<int>(i))});
     for (const GroundPath& path : scene.paths) {
         if (!path.measured) continue;
         Flow& flow = flows[static_cast<std::size_t>(path.stretch)];
@@ -138,7 +165,7 @@ void findFlowEvents(const EventScene& scene, std::vector<Event>& events) {
         if (!path.measured) continue;
         const auto verdicts = verdictsOn(scene, path, flows[static_cast<std::size_t>(path.stretch)]);
         addAgainst(scene, path, verdicts, events);
-        addLeaving(scene, path, verdicts, events);
+        addLeaving(scene, path, verdicts.of_sample, events);
     }
 }
 

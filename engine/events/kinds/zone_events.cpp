@@ -2,25 +2,10 @@
 #include <optional>
 
 #include "events/kinds/event_scene.h"
+#include "events/kinds/placed_zone.h"
 
 namespace eyrie {
 namespace {
-
-/// A zone as the paths of one ground meet it: on the ground in metres, or in the image in px.
-struct PlacedZone {
-    const Zone* zone = nullptr;
-    std::vector<cv::Point2d> points;
-    bool in_image = false;
-};
-
-/// Nothing where the zone is fixed to another ground.
-std::optional<PlacedZone> placed(const EventScene& scene, const Zone& zone, int stretch) {
-    if (zone.anchor == ZoneAnchor::image) return PlacedZone{&zone, zone.points, true};
-    if (scene.ground.indexOf(zone.frame) != stretch) return std::nullopt;
-    PlacedZone result{&zone, {}, false};
-    for (const cv::Point2d& point : zone.points) result.points.push_back(scene.ground.toGround(zone.frame, point));
-    return result;
-}
 
 std::optional<cv::Point2d> placeOf(const EventScene& scene, const PlacedZone& zone, const GroundSample& sample) {
     if (!zone.in_image) return sample.at;
@@ -98,6 +83,7 @@ void passLine(const EventScene& scene, const GroundPath& path, const PlacedZone&
 
 void findZoneEvents(const EventScene& scene, const std::vector<Zone>& zones, std::vector<Event>& events) {
     for (const Zone& zone : zones) {
+        if (zone.shape == ZoneShape::arrow) continue;  // nobody enters or crosses it
         int stretch = -1;
         std::optional<PlacedZone> here;
         for (const GroundPath& path : scene.paths) {

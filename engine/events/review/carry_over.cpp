@@ -52,6 +52,16 @@ bool isWithin(FrameIndex frame, const std::vector<FrameSpan>& spans) {
                        [frame](const FrameSpan& span) { return frame >= span.first && frame <= span.last; });
 }
 
+/// Whether events of a kind are there only where a zone is watched. Who drives against the flow does so with and
+/// without an arrow that says it.
+bool needsZone(EventKind kind) {
+    return kind != EventKind::against_flow;
+}
+
+bool isOfSameZone(const ReviewSubject& subject, const Event& event) {
+    return !needsZone(event.kind) || event.zone == subject.zone;
+}
+
 class Carrier {
  public:
     Carrier(const std::vector<Event>& events, const std::vector<FrameSpan>& unsearched, const StoredTracks& run,
@@ -82,7 +92,7 @@ class Carrier {
             const std::size_t index = times.events[i];
             const Event& event = events_[index];
             if (times_[index].first_s > time.last_s + options_.carry_time_s) break;
-            if (event.zone != subject.zone || event.sense != subject.sense) continue;
+            if (!isOfSameZone(subject, event) || event.sense != subject.sense) continue;
             const auto late = inTime(time, times_[index]);
             if (!late) continue;
             const auto far = distance_.between(subject, event);
@@ -100,9 +110,9 @@ class Carrier {
 
     CarryFault faultOf(const ReviewSubject& subject, bool met, const std::vector<Zone>& zones) const {
         if (met) return CarryFault::taken;
-        const bool watched = subject.zone.empty() || std::any_of(zones.begin(), zones.end(), [&](const Zone& zone) {
-                                 return zone.name == subject.zone;
-                             });
+        const bool watched =
+            subject.zone.empty() || (subject.kind && !needsZone(*subject.kind)) ||
+            std::any_of(zones.begin(), zones.end(), [&](const Zone& zone) { return zone.name == subject.zone; });
         const bool searched =
             isOfRun(subject.frame) && (!subject.kind.has_value() || !isWithin(subject.frame, unsearched_));
         return watched && searched ? CarryFault::no_event : CarryFault::not_searched;

@@ -10,10 +10,6 @@ bool isThere(const ReviewSet& set, const Zone& zone) {
                        [&](const auto& stored) { return stored.second.zone == zone; });
 }
 
-std::string wordOf(const Zone& zone) {
-    return zone.shape == ZoneShape::line ? "line" : "zone";
-}
-
 }  // namespace
 
 ReviewEdit addZones(const ReviewSet& set, const std::vector<Zone>& zones, const Judge& judge, const NewId& new_id) {
@@ -29,7 +25,7 @@ ReviewEdit addZones(const ReviewSet& set, const std::vector<Zone>& zones, const 
     }
     if (edit.zones.size() == 1) {
         const Zone& only = edit.zones.front().after->zone;
-        edit.name = "Add " + wordOf(only) + " \"" + only.name + "\"";
+        edit.name = std::string("Add ") + nameOf(only.shape) + " \"" + only.name + "\"";
     } else {
         edit.name = "Add " + std::to_string(edit.zones.size()) + " zones";
     }
@@ -48,7 +44,8 @@ ReviewEdit changeZone(const ReviewSet& set, int id, const std::function<void(Sto
     after.person = judge.person;
     after.when_utc = judge.when_utc;
     const bool renamed = after.zone.name != before.zone.name;
-    edit.name = (renamed ? "Rename " : "Change ") + wordOf(before.zone) + " \"" + before.zone.name + "\"";
+    edit.name =
+        std::string(renamed ? "Rename " : "Change ") + nameOf(before.zone.shape) + " \"" + before.zone.name + "\"";
     // Verdicts know their zone by its name.
     for (const auto& [verdict_id, verdict] : set.verdicts) {
         if (!renamed || verdict.subject.zone != before.zone.name) continue;
@@ -68,7 +65,7 @@ ReviewEdit removeZones(const ReviewSet& set, const std::vector<int>& ids) {
     }
     if (edit.zones.size() == 1) {
         const Zone& only = edit.zones.front().before->zone;
-        edit.name = "Delete " + wordOf(only) + " \"" + only.name + "\"";
+        edit.name = std::string("Delete ") + nameOf(only.shape) + " \"" + only.name + "\"";
     } else {
         edit.name = "Delete " + std::to_string(edit.zones.size()) + " zones";
     }
@@ -77,7 +74,7 @@ ReviewEdit removeZones(const ReviewSet& set, const std::vector<int>& ids) {
 
 std::string newZoneName(const ReviewSet& set, ZoneShape shape) {
     for (int number = 1;; ++number) {
-        std::string name = (shape == ZoneShape::line ? "line " : "zone ") + std::to_string(number);
+        std::string name = std::string(nameOf(shape)) + " " + std::to_string(number);
         if (std::none_of(set.zones.begin(), set.zones.end(),
                          [&](const auto& stored) { return stored.second.zone.name == name; }))
             return name;

@@ -18,7 +18,7 @@ ReviewEdit changeZone(const ReviewSet& set, int id, const std::function<void(Sto
 
 ReviewEdit removeZones(const ReviewSet& set, const std::vector<int>& ids);
 
-/// "zone 1", or the next that no zone of the project has.
+/// "zone 1" ("line 1", "arrow 1"), or the next that no zone of the project has.
 std::string newZoneName(const ReviewSet& set, ZoneShape shape);
 
 }  // namespace eyrie

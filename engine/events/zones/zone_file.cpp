@@ -28,14 +28,22 @@ void refuseOtherKeys(const JsonPlace& place, const std::vector<std::string>& kno
     }
 }
 
-/// 0 for the first word, which is the default, 1 for the second.
-int choiceOf(const JsonPlace& zone, const char* key, const char* first, const char* second) {
+// In the order of their enumerators.
+const std::vector<std::string> kShapeWords = {"area", "line", "arrow"};
+
+/// Which of the words stands there; the first where nothing does.
+std::size_t choiceOf(const JsonPlace& zone, const char* key, const std::vector<std::string>& words) {
     if (!zone.has(key)) return 0;
     const JsonPlace place = zone.at(key);
     const std::string word = place.text();
-    if (word != first && word != second)
-        place.fail("is \"" + word + "\", expected \"" + first + "\" or \"" + second + "\"");
-    return word == second ? 1 : 0;
+    const auto found = std::find(words.begin(), words.end(), word);
+    if (found == words.end()) {
+        std::string all;
+        for (const std::string& each : words)
+            all += (all.empty() ? "\"" : &each == &words.back() ? " or \"" : ", \"") + each + "\"";
+        place.fail("is \"" + word + "\", expected " + all);
+    }
+    return static_cast<std::size_t>(found - words.begin());
 }
 
 Zone zoneAt(const JsonPlace& place) {
@@ -43,8 +51,8 @@ Zone zoneAt(const JsonPlace& place) {
     Zone zone;
     zone.name = place.at("name").text();
     if (zone.name.empty()) place.at("name").fail("is empty");
-    zone.shape = choiceOf(place, "shape", "area", "line") == 0 ? ZoneShape::area : ZoneShape::line;
-    zone.anchor = choiceOf(place, "fixed_to", "ground", "image") == 0 ? ZoneAnchor::ground : ZoneAnchor::image;
+    zone.shape = static_cast<ZoneShape>(choiceOf(place, "shape", kShapeWords));
+    zone.anchor = choiceOf(place, "fixed_to", {"ground", "image"}) == 0 ? ZoneAnchor::ground : ZoneAnchor::image;
     if (place.has("frame")) {
         zone.frame = place.at("frame").whole();
         if (zone.frame < 0 || zone.frame > kLastFrame) place.at("frame").fail("is not the number of a frame");
@@ -93,7 +101,7 @@ void writeZones(const std::filesystem::path& path, const std::vector<Zone>& zone
         const Zone& zone = zones[i];
         nlohmann::ordered_json json;
         json["name"] = zone.name;
-        json["shape"] = zone.shape == ZoneShape::line ? "line" : "area";
+        json["shape"] = kShapeWords.at(static_cast<std::size_t>(zone.shape));
         json["fixed_to"] = zone.anchor == ZoneAnchor::image ? "image" : "ground";
         if (zone.anchor == ZoneAnchor::ground) json["frame"] = zone.frame;
         for (const cv::Point2d& point : zone.points) json["points"].push_back({point.x, point.y});

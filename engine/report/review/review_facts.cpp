@@ -21,6 +21,20 @@ std::string scaleText(const ReviewReportInput& input) {
     return text + (input.scale_remark.empty() ? "" : "; " + input.scale_remark);
 }
 
+/// "Watched: gate 3, a line."
+std::string watchedText(const Zone& zone) {
+    const std::string name = markupEscaped(zone.name);
+    switch (zone.shape) {
+        case ZoneShape::area:
+            break;
+        case ZoneShape::line:
+            return "Watched: " + name + ", a line.";
+        case ZoneShape::arrow:
+            return "The right way by " + name + ", an arrow that a person drew.";
+    }
+    return "Watched: " + name + ", an area.";
+}
+
 std::string clockFact(const ReviewReportInput& input) {
     if (input.clock.source() == VideoClock::Source::none) return "not known: times are those of the video";
     return "from " + input.clock.origin();
@@ -154,9 +168,7 @@ void tellReviewedVideo(ReportPage& page, const ReviewScene& scene) {
         for (const auto& [name, value] : limits) page.row({markupEscaped(name), markupEscaped(value)});
         page.endTable();
     }
-    for (const Zone& zone : input.reviewed.zones)
-        page.paragraph("Watched: " + markupEscaped(zone.name) +
-                       (zone.shape == ZoneShape::line ? ", a line." : ", an area."));
+    for (const Zone& zone : input.reviewed.zones) page.paragraph(watchedText(zone));
 }
 
 void tellRemainder(ReportPage& page, const ReviewScene& scene) {

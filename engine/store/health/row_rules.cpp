@@ -77,7 +77,8 @@ void answerZone(sqlite3_context* context, int, sqlite3_value** values) {
     bool good = points && points->size() <= kMostZonePoints && shape != nullptr;
     if (good) {
         Zone zone;
-        zone.shape = std::string_view(shape) == "line" ? ZoneShape::line : ZoneShape::area;
+        for (const auto& entry : stored::kZoneShapes)
+            if (entry.word == shape) zone.shape = entry.value;
         zone.points = *points;
         good = faultOf(zone).empty();
     }

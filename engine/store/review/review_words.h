@@ -27,7 +27,8 @@ inline constexpr std::array<Word<std::optional<EventKind>>, kEventKinds + 1> kSu
      {std::nullopt, "not searched"}}};
 inline constexpr std::array<Word<CrossingSense>, 3> kCrossingSenses{
     {{CrossingSense::none, ""}, {CrossingSense::to_right, "to the right"}, {CrossingSense::to_left, "to the left"}}};
-inline constexpr std::array<Word<ZoneShape>, 2> kZoneShapes{{{ZoneShape::area, "area"}, {ZoneShape::line, "line"}}};
+inline constexpr std::array<Word<ZoneShape>, 3> kZoneShapes{
+    {{ZoneShape::area, "area"}, {ZoneShape::line, "line"}, {ZoneShape::arrow, "arrow"}}};
 inline constexpr std::array<Word<ZoneAnchor>, 2> kZoneAnchors{
     {{ZoneAnchor::image, "image"}, {ZoneAnchor::ground, "ground"}}};
 inline constexpr std::array<Word<CorrectionKind>, 4> kCorrectionKinds{{{CorrectionKind::add, "add"},

@@ -34,12 +34,12 @@ inline Bookmark sampleBookmark(int id) {
     return {id, 50 + id, 2 + id * 0.04, cv::Point2d(20.5, 30.25 + id), "look here", "Bo", "2026-11-21T09:00:00Z"};
 }
 
-/// Every third one is a line.
+/// Every third one is a line, every fourth an arrow.
 inline StoredZone sampleZone(int id) {
     StoredZone zone;
     zone.id = id;
     zone.zone.name = "yard " + std::to_string(id);
-    zone.zone.shape = id % 3 == 0 ? ZoneShape::line : ZoneShape::area;
+    zone.zone.shape = id % 3 == 0 ? ZoneShape::line : id % 4 == 0 ? ZoneShape::arrow : ZoneShape::area;
     zone.zone.anchor = id % 2 == 0 ? ZoneAnchor::image : ZoneAnchor::ground;
     zone.zone.frame = 3 + id;
     zone.zone.points = {{10.25, 20}, {80, 20.5}, {80.125, 60. + id}};

@@ -125,6 +125,23 @@ class OverlaysTest : public QObject {
         QCOMPARE(count(view_->picture(), area), 0);
     }
 
+    void aRightWayIsToldFromALineAlsoWhereItsEndIsOutOfView() {
+        ViewFrame frame = frameWith(empty());
+        frame.index = 7;
+        view_->setFrame(frame);
+        showOnly(ZoneLayer::kKind);
+        settings_.setLabels(false);
+        const QColor cyan(0, 255, 255);
+        ZoneMark mark{QStringLiteral("lane"), {{50, 150}, {900, 150}}, false, cyan};
+        view_->setZones(7, {mark});
+        const int as_line = count(view_->picture(), cyan);
+        mark.right_way = true;
+        mark.points = {{50, 150}, {550, 150}};  // its middle is seen, its end is not
+        view_->setZones(7, {mark});
+        QVERIFY(count(view_->picture(), cyan) > as_line * 5 / 4);
+        settings_.setLabels(true);
+    }
+
     void theInspectedAreaIsOutlinedWhateverIsSwitchedOn() {
         view_->setFrame(frameWith(empty()));
         showOnly(std::nullopt);

@@ -244,6 +244,19 @@ class TrackFilterTest : public QObject {
         QCOMPARE(chipText(panel.chips().filter(), TrackQuality::like, kMetres), QStringLiteral("Like 4 ≥ 0.2"));
         QCOMPARE(asked.size(), std::size_t(1));
 
+        QFrame* switches = panel.chips().openLimits(TrackQuality::like);
+        const auto boxes = switches->findChildren<QCheckBox*>();
+        QCOMPARE(boxes.size(), 4);
+        boxes[3]->click();
+        QCOMPARE(panel.chips().filter().like->counts, (LikenessChoice{.looks = true}));
+        QCOMPARE(asked.size(), std::size_t(2));
+        QCOMPARE(asked.back(), std::optional<TrackId>(4));
+        QCOMPARE(listed(panel).size(), std::size_t(6));  // until the answer comes
+        for (QCheckBox* box : boxes) box->click();
+        QVERIFY2(boxes[3]->isChecked(), "something has to count");
+        QCOMPARE(panel.chips().filter().like->counts, (LikenessChoice{false, false, false, true}));
+        switches->close();
+
         for (QToolButton* button : panel.chips().findChildren<QToolButton*>())
             if (button->text() == QStringLiteral("×") && button->isVisible()) button->click();
         QCOMPARE(asked.back(), std::optional<TrackId>());

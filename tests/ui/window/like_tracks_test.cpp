@@ -55,6 +55,39 @@ class LikeTracksTest : public QObject {
         QVERIFY2(!panel.chips().filter().like, "the number means another vehicle in another run");
     }
 
+    void looksCountOnceTheirPicturesWereRead() {
+        MainWindow window;
+        window.show();
+        QVERIFY(test::openAndWait(window.session(), test::sceneUnderTest(60)));
+        QVERIFY(test::runAndWait(window.session()));
+        TracksPanel& panel = window.review().tracks();
+        const QAbstractItemModel* shown = panel.table()->model();
+        QVERIFY(QTest::qWaitFor([&] { return shown->rowCount() > 1; }, kPatience_ms));
+        const TrackId chosen = shown->index(0, 0).data(id_role).toInt();
+        TrackFilter filter;
+        filter.like = LikeLimit{.track = chosen, .least = 0};
+        panel.chips().setFilter(filter);
+        const auto likenesses = [&] {
+            QStringList all;
+            for (int row = 0; row < shown->rowCount(); ++row)
+                all << shown->index(row, TracksModel::like_column).data().toString();
+            return all;
+        };
+        QVERIFY(QTest::qWaitFor([&] { return likenesses().value(0) == QStringLiteral("1.00"); }, kPatience_ms));
+        const QStringList without = likenesses();
+        filter.like->counts = {.path = false, .speed = false, .size = false, .looks = true};
+        panel.chips().setFilter(filter);
+        // Until then nothing that counts is known.
+        QVERIFY(QTest::qWaitFor(
+            [&] {
+                const QStringList now = likenesses();
+                return now != without && now.value(1).toDouble() > 0;
+            },
+            kPatience_ms));
+        QVERIFY2(window.messages().texts().filter(QStringLiteral("could not be read")).isEmpty(),
+                 "all pictures could be");
+    }
+
     void whileARunWorksTheChipSaysThatItWaits() {
         MainWindow window;
         window.show();

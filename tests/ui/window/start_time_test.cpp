@@ -14,6 +14,8 @@
 #include "review/events/events_dock.h"
 #include "review/events/events_panel.h"
 #include "review/tracks/tracks_panel.h"
+#include "store/project/project_file.h"
+#include "store/project/video_start.h"
 #include "ui/support/ui_test.h"
 #include "ui/window/window_with_run.h"
 #include "window/docks/review_docks.h"
@@ -104,6 +106,21 @@ class StartTimeTest : public QObject {
         for (int row = 0; row < events.rowCount(); ++row)
             QVERIFY(
                 events.index(row, EventsModel::time_column).data().toString().startsWith(QStringLiteral("08:00:0")));
+    }
+
+    void whatAnotherProgramSaysIsFollowed() {
+        const auto window = test::windowWithRun();
+        QVERIFY(window);
+        QVERIFY(QTest::qWaitFor([&] { return earth(*window).metadata() != nullptr; }, kPatience_ms));
+        QVERIFY(tells(*window, QString()));
+        ProjectFile other = ProjectFile::open(window->session().project());
+        const int video = window->session().runs().back().sequence.id;
+        storeVideoStart(other, video, kBegin.toMSecsSinceEpoch() * 1000);
+        QVERIFY(tells(*window, QStringLiteral("the start time given")));
+        QCOMPARE(earth(*window).clockText(25), QStringLiteral("2026-11-21 08:00:01.000 UTC"));
+        QCOMPARE(window->timeline().rulerText(1'000'000), QStringLiteral("08:00:01"));
+        storeVideoStart(other, video, std::nullopt);
+        QVERIFY(tells(*window, QString()));
     }
 
     void whatIsCancelledChangesNothingAndWithoutAVideoNobodyIsAsked() {

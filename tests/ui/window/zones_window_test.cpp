@@ -177,6 +177,29 @@ class ZonesWindowTest : public QObject {
         QVERIFY(waitForEvents(*window, EventKind::enters, 0));
     }
 
+    void anArrowIsDrawnShownAndUndone() {
+        const auto window = windowWithRun();
+        QVERIFY(window);
+        QTest::keyClick(&window->canvas(), Qt::Key_D, Qt::ControlModifier | Qt::ShiftModifier);
+        QVERIFY(window->actions().draw_arrow->isChecked());
+        click(*window, {175, 57});
+        click(*window, {130, 57}, true);
+        QVERIFY(!window->actions().draw_arrow->isChecked());
+        QCOMPARE(zones(*window).size(), std::size_t(1));
+        const Zone& arrow = zones(*window).begin()->second.zone;
+        QCOMPARE(arrow.shape, ZoneShape::arrow);
+        QCOMPARE(arrow.anchor, ZoneAnchor::ground);
+        QCOMPARE(arrow.name, std::string("arrow 1"));
+        const std::vector<ZoneMark>& marks = window->canvas().frame().zones;
+        QCOMPARE(marks.size(), std::size_t(1));
+        QVERIFY(marks[0].right_way && !marks[0].closed);
+        QVERIFY(marks[0].points.front().x() > marks[0].points.back().x());
+        window->canvas().setFocus();
+        QTest::keyClick(&window->canvas(), Qt::Key_Z);
+        QVERIFY(zones(*window).empty());
+        QVERIFY(window->canvas().frame().zones.empty());
+    }
+
     void whatIsNoZoneIsToldAndDrawingGoesOn() {
         const auto window = windowWithRun();
         QVERIFY(window);

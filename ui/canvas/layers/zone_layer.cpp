@@ -11,14 +11,16 @@ namespace eyrie::ui {
 namespace {
 
 constexpr double kArrow = 9;  ///< logical px
+constexpr double kWayHead = 14;
+constexpr double kWayWidth = 1.6;  ///< more than the outline of a zone has
 constexpr int kGroundAlpha = 34;
 
-void appendArrow(QVector<QLineF>& lines, const QLineF& last) {
+void appendArrow(QVector<QLineF>& lines, const QLineF& last, double length) {
     if (last.length() < 1) return;
     for (const double angle : {155.0, -155.0}) {
         QLineF side(last.p2(), last.p2() + QPointF(1, 0));
         side.setAngle(last.angle() + angle);
-        side.setLength(kArrow);
+        side.setLength(length);
         lines.append(side);
     }
 }
@@ -57,10 +59,14 @@ void ZoneLayer::paint(QPainter& painter, const OverlayScene& scene) const {
             painter.drawPolygon(points);
             painter.setBrush(Qt::NoBrush);
         } else {
-            appendArrow(lines, lines.back());
+            // A right way tells its direction wherever one looks, also where its end is out of view.
+            const QVector<QLineF> parts = lines;
+            for (const QLineF& part : parts)
+                if (zone.right_way) appendArrow(lines, {part.p1(), part.center()}, kWayHead);
+            appendArrow(lines, parts.back(), zone.right_way ? kWayHead : kArrow);
         }
-        drawEdgedLines(painter, lines,
-                       {zone.colour, scene.style.colours.edge, scene.style.line_width + (zone.selected ? 1.4 : 0.2)});
+        const double width = scene.style.line_width + (zone.selected ? 1.4 : 0.2) + (zone.right_way ? kWayWidth : 0);
+        drawEdgedLines(painter, lines, {zone.colour, scene.style.colours.edge, width});
     }
     if (!scene.style.detail.labels) return;
     // Vehicles are drawn on top: names that they cover could not be read.

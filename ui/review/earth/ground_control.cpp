@@ -80,6 +80,7 @@ void GroundControl::bindCommands() {
                                     }},
                                    {actions.draw_zone, [this] { tool_->end(); }},
                                    {actions.draw_line, [this] { tool_->end(); }},
+                                   {actions.draw_arrow, [this] { tool_->end(); }},
                                    {actions.deselect, [this] { tool_->end(); }}});
     whenAny(
         tool_, this,

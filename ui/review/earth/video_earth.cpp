@@ -44,7 +44,11 @@ SaidOfVideo saidOf(const std::filesystem::path& path, const std::string& identit
 VideoEarth::VideoEarth(ProjectSession& session, QObject* parent) : QObject(parent), session_(session) {
     followSession(session_, this,
                   {{SessionChange::video, [this] { readMetadata(); }},
-                   {{SessionChange::project, SessionChange::opened}, [this] { layOnEarth(); }}});
+                   {{SessionChange::project, SessionChange::opened}, [this] { layOnEarth(); }},
+                   {SessionChange::start, [this] {
+                        // What this window said itself is known already.
+                        if (session_.givenStart() != given_start_us_) layOnEarth();
+                    }}});
 }
 
 VideoEarth::~VideoEarth() = default;

@@ -28,7 +28,7 @@ std::vector<ThresholdGroup> thresholdGroups() {
         {{EventKind::stops, EventKind::starts, EventKind::stands},
          {"standing_speed", "moving_speed", "min_standing", "min_way", "stands"}},
         {{EventKind::turns_back}, {"turn_back_"}},
-        {{EventKind::against_flow, EventKind::leaves_flow}, {"flow_", "against_", "off_flow"}},
+        {{EventKind::against_flow, EventKind::leaves_flow}, {"flow_", "arrow_", "against_", "off_flow"}},
         {{EventKind::over_speed, EventKind::under_speed}, {"over", "under"}},
         {{EventKind::convoy}, {"convoy_"}},
         {{EventKind::meeting}, {"meeting_"}},

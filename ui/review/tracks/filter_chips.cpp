@@ -245,9 +245,42 @@ void FilterChips::fillLike(QVBoxLayout& rows) {
     least->setPlaceholderText(QStringLiteral("0"));
     line->addStretch();
     rows.addLayout(line);
-    auto* note = new QLabel(tr("From 0 to 1, by the path over the ground, the speed and the size"));
+    auto* note = new QLabel(tr("From 0 to 1, by what is ticked"));
     note->setWordWrap(true);
     rows.addWidget(note);
+    addLikeSwitches(rows);
+}
+
+void FilterChips::addLikeSwitches(QVBoxLayout& rows) {
+    struct Switch {
+        QString text;
+        QString tip;
+        bool LikenessChoice::*counts;
+    };
+    const Switch switches[] = {
+        {tr("Path"), tr("Where on the ground and in which direction it drove"), &LikenessChoice::path},
+        {tr("Speed"), {}, &LikenessChoice::speed},
+        {tr("Size"), {}, &LikenessChoice::size},
+        {tr("Looks"),
+         tr("Colour, brightness and outline in a few pictures of each track. They are read in the background, once for "
+            "a run; until then the rest counts"),
+         &LikenessChoice::looks}};
+    for (const Switch& each : switches) {
+        auto* box = new QCheckBox(each.text);
+        box->setToolTip(each.tip);
+        box->setChecked(filter_.like->counts.*each.counts);
+        bindCommands(this, {{box, [this, box, counts = each.counts](bool on) {
+                                 change([&](TrackFilter& filter) {
+                                     if (!filter.like) return;
+                                     LikenessChoice wanted = filter.like->counts;
+                                     wanted.*counts = on;
+                                     if (wanted.any()) filter.like->counts = wanted;
+                                 });
+                                 // Something has to count.
+                                 if (filter_.like) box->setChecked(filter_.like->counts.*counts);
+                             }}});
+        rows.addWidget(box);
+    }
 }
 
 void FilterChips::fillDirections(QVBoxLayout& rows) {

@@ -62,6 +62,7 @@ class FilterChips : public QWidget {
     void fillEvents(QVBoxLayout& rows);
     void fillZones(QVBoxLayout& rows);
     void fillLike(QVBoxLayout& rows);
+    void addLikeSwitches(QVBoxLayout& rows);
     /// A field for a number that may be missing, and must not be negative.
     QLineEdit* addField(QHBoxLayout& line, const QString& name, const std::optional<double>& value,
                         const std::function<void(std::optional<double>)>& take);

@@ -1,5 +1,8 @@
 #include "review/tracks/like_tracks.h"
 
+#include <exception>
+#include <utility>
+
 #include "ground/track_likeness.h"
 #include "review/tracks/filter_chips.h"
 #include "review/tracks/tracks_panel.h"
@@ -14,6 +17,47 @@ namespace eyrie::ui {
 namespace {
 
 const QString kLikeTopic = QStringLiteral("tracks like one");
+
+/// What reading the pictures of tracks yields.
+struct PicturesSeen {
+    std::shared_ptr<const LooksByTrack> looks;
+    QString missing;  ///< why pictures could not be read; empty: all could
+};
+
+/// Looks at all tracks; `tell` gets the share done.
+template <class Tell>
+PicturesSeen lookAt(const RunGround& ground, const Media& media, const std::stop_token& stop, const Tell& tell) {
+    LookTaker taker(ground.run->tracks);
+    PicturesSeen seen;
+    const std::vector<FrameIndex> frames = taker.frames();
+    std::size_t unread = 0;
+    std::string why;
+    tell(0);  // a video that is opened for the first time is indexed
+    try {
+        const auto source = media.open({}, stop);
+        int percent = 0;
+        for (std::size_t i = 0; i < frames.size() && !stop.stop_requested(); ++i) {
+            try {
+                taker.look(source->read(frames[i], true));
+            } catch (const std::exception& error) {
+                ++unread;
+                why = error.what();
+            }
+            const int done = static_cast<int>(100 * (i + 1) / frames.size());
+            if (std::exchange(percent, done) < done) tell(done);
+        }
+    } catch (const std::exception& error) {
+        unread = frames.size();
+        why = error.what();
+    }
+    if (unread > 0)
+        seen.missing = LikeTracks::tr("%1 of %2 pictures could not be read: %3")
+                           .arg(unread)
+                           .arg(frames.size())
+                           .arg(QString::fromStdString(why));
+    seen.looks = std::make_shared<const LooksByTrack>(taker.looks());
+    return seen;
+}
 
 }  // namespace
 
@@ -42,6 +86,7 @@ void LikeTracks::enableAction() {
 void LikeTracks::setGround(const std::shared_ptr<const RunGround>& ground) {
     if (ground_ == ground) return;
     ground_ = ground;
+    looks_.reset();
     search();
 }
 
@@ -55,17 +100,44 @@ void LikeTracks::search() {
     query_.cancel();
     sayWaiting(wanted_.has_value());
     if (!wanted_ || !ground_) return;
-    const auto work = [this, ground = ground_, track = *wanted_](const BackgroundTask& task) {
-        auto likeness = std::make_shared<LikenessByTrack>();
-        likeness->chosen = track;
-        for (const TrackLikeness& each : tracksLike(*ground->run, ground->stretches, track))
-            likeness->likeness[each.track] = each.likeness;
-        task.tell([this, likeness] {
-            sayWaiting(false);
-            parts_.panel.setLikeness(likeness);
+    const auto& limit = parts_.panel.chips().filter().like;
+    const LikenessChoice counts = limit ? limit->counts : LikenessChoice();
+    const auto work = [this, ground = ground_, track = *wanted_, counts, media = parts_.session.media(),
+                       known = looks_](const BackgroundTask& task) {
+        std::vector<TrackLikeness> found = tracksLike(*ground->run, ground->stretches, track);
+        if (known) compareLooks(found, *known, track);
+        task.tell([this, track, found, counts] { take(track, found, counts); });
+        if (!counts.looks || known || !media) return;
+        const PicturesSeen seen = lookAt(*ground, *media, task.stop(), [&](int percent) {
+            task.tell(
+                [this, percent] { parts_.panel.chips().setLikeWaiting(tr("looking at pictures, %1 %").arg(percent)); });
+        });
+        if (task.stop().stop_requested()) return;
+        compareLooks(found, *seen.looks, track);
+        task.tell([this, track, found, counts, seen] {
+            takeLooks(seen.looks, seen.missing);
+            take(track, found, counts);
         });
     };
     query_.ask(work, [this](const QString& message) { fail(message); });
+}
+
+void LikeTracks::take(TrackId chosen, const std::vector<TrackLikeness>& found, const LikenessChoice& counts) {
+    auto likeness = std::make_shared<LikenessByTrack>();
+    likeness->chosen = chosen;
+    for (const TrackLikeness& each : found) likeness->likeness[each.track] = likenessBy(each, counts);
+    sayWaiting(false);
+    parts_.panel.setLikeness(likeness);
+}
+
+void LikeTracks::takeLooks(std::shared_ptr<const LooksByTrack> looks, const QString& missing) {
+    // What could not be read may be there the next time.
+    if (missing.isEmpty()) {
+        looks_ = std::move(looks);
+        return;
+    }
+    parts_.messages.showTopic(kLikeTopic, MessageKind::warning,
+                              tr("What vehicles look like does not count, or only in part: %1.").arg(missing));
 }
 
 void LikeTracks::sayWaiting(bool waits) {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/values/ids.h"
+#include "ground/track_likeness.h"
 #include "session/background/background_query.h"
 
 namespace eyrie::ui {
@@ -25,7 +26,8 @@ struct LikeParts {
     MessageBar& messages;
 };
 
-/// Tracks like the one selected: the command, and what the list asks for, worked out in the background.
+/// Tracks like the one selected: the command, and what the list asks for, worked out in the background. Where looks
+/// count, the list is there without them first; the pictures are read once for a run.
 class LikeTracks : public QObject {
     Q_OBJECT
 
@@ -40,12 +42,15 @@ class LikeTracks : public QObject {
 
  private:
     void search();
+    void take(TrackId chosen, const std::vector<TrackLikeness>& found, const LikenessChoice& counts);
+    void takeLooks(std::shared_ptr<const LooksByTrack> looks, const QString& missing);
     void sayWaiting(bool waits);
     void fail(const QString& text);
     void enableAction();
 
     LikeParts parts_;
     std::shared_ptr<const RunGround> ground_;
+    std::shared_ptr<const LooksByTrack> looks_;  ///< of the tracks of `ground_`; null: not looked at
     std::optional<TrackId> wanted_;
     std::optional<int> shown_run_;
     BackgroundQuery query_;  ///< last: stops before the rest goes

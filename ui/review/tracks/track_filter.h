@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/values/scene_scale.h"
+#include "ground/track_likeness.h"
 #include "review/tracks/track_doings.h"
 #include "store/runs/run_store.h"
 
@@ -39,10 +40,11 @@ struct LikenessByTrack {
     double of(TrackId track) const;
 };
 
-/// Tracks like one of them: so like at least.
+/// Tracks like one of them: so like at least, in what counts.
 struct LikeLimit {
     TrackId track = 0;
     double least = 0.5;
+    LikenessChoice counts = {};
     bool operator==(const LikeLimit&) const = default;
 };
 

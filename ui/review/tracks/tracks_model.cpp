@@ -148,7 +148,7 @@ QString TracksModel::helpOf(int column) const {
                 "What the track is, by its mean size and speed over the ground (classes.*); a dash where they do not "
                 "decide it");
         case like_column:
-            return tr("Likeness to the chosen track, from 0 to 1: path over the ground, speed and size");
+            return tr("Likeness to the chosen track, from 0 to 1, in what its chip says that counts");
         default:
             return {};
     }

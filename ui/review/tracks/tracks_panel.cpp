@@ -9,6 +9,7 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <cmath>
+#include <utility>
 
 #include "review/tracks/filter_chips.h"
 #include "widgets/empty_state.h"
@@ -148,12 +149,16 @@ void TracksPanel::listLike(std::optional<TrackId> track) {
 void TracksPanel::useFilter() {
     const auto& limit = chips_->filter().like;
     const std::optional<TrackId> like = limit ? std::optional(limit->track) : std::nullopt;
+    const LikenessChoice counts = limit ? limit->counts : LikenessChoice();
+    const bool counts_differ = std::exchange(like_counts_, counts) != counts;
     if (like != like_) {
         const bool ordered = like_.has_value();
         like_ = like;
         setLikeness(nullptr);
         if (ordered != like.has_value()) orderByLikeness(like.has_value());
         commands_.want_likeness(like);
+    } else if (like && counts_differ) {
+        commands_.want_likeness(like);  // what is listed stays until it is known
     }
     filterTracks();
 }

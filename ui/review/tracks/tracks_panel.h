@@ -26,7 +26,8 @@ struct TrackListCommands {
     std::function<void(double score)> use_min_score = [](double) {};
     /// What the tracks did is asked for: setDoings().
     std::function<void()> want_doings = [] {};
-    /// How like the others are to this track is asked for, setLikeness(); none: no more.
+    /// How like the others are to this track is asked for, setLikeness(), anew when what counts changes; none: no
+    /// more.
     std::function<void(std::optional<TrackId> track)> want_likeness = [](std::optional<TrackId>) {};
 };
 
@@ -89,7 +90,8 @@ class TracksPanel : public TablePanel {
     FilterChips* chips_;
     std::shared_ptr<const DoingsByTrack> doings_;
     std::shared_ptr<const LikenessByTrack> likeness_;
-    std::optional<TrackId> like_;                        ///< that was asked about
+    std::optional<TrackId> like_;  ///< that was asked about
+    LikenessChoice like_counts_;
     std::pair<int, Qt::SortOrder> order_before_like_{};  ///< column and order
 };
 

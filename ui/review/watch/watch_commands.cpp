@@ -33,6 +33,7 @@ WatchCommands::WatchCommands(const WatchParts& parts, QObject* parent)
     bindCommands(this, {{actions.measure, [this](bool on) { on ? measure_->start() : measure_->end(); }},
                         {actions.draw_zone, [this] { measure_->end(); }},
                         {actions.draw_line, [this] { measure_->end(); }},
+                        {actions.draw_arrow, [this] { measure_->end(); }},
                         {actions.deselect, [this] { measure_->end(); }},
                         {actions.snapshot, [this] { askForSnapshot(SnapshotKind::as_seen); }},
                         {actions.snapshot_plain, [this] { askForSnapshot(SnapshotKind::alone); }}});

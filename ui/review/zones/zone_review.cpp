@@ -42,6 +42,7 @@ ZoneReview::ZoneReview(const ZoneParts& parts, QObject* parent)
     connect(tool_, &ZoneTool::drawingChanged, this, [this] {
         parts_.actions.draw_zone->setChecked(tool_->shape() == ZoneShape::area);
         parts_.actions.draw_line->setChecked(tool_->shape() == ZoneShape::line);
+        parts_.actions.draw_arrow->setChecked(tool_->shape() == ZoneShape::arrow);
         parts_.messages.dismissTopic(kZonesTopic);
     });
     connect(&parts_.canvas, &VideoView::frameGiven, this, [this] {
@@ -70,6 +71,7 @@ void ZoneReview::bindCommands() {
     eyrie::ui::bindCommands(this, {
                                       {actions.draw_zone, [this](bool on) { startDrawing(ZoneShape::area, on); }},
                                       {actions.draw_line, [this](bool on) { startDrawing(ZoneShape::line, on); }},
+                                      {actions.draw_arrow, [this](bool on) { startDrawing(ZoneShape::arrow, on); }},
                                       {actions.deselect, [this] { tool_->cancel(); }},
                                   });
     panel_->setCommands({
@@ -220,10 +222,11 @@ void ZoneReview::showZones() {
 
 QString ZoneReview::hintText() const {
     if (!parts_.review.canMark())
-        return tr("Zones and lines are drawn over a finished run, which knows how the ground moves.");
+        return tr("Zones, lines and arrows are drawn over a finished run, which knows how the ground moves.");
     return tr(
-        "Draw an area or a line, and the list shows which vehicles enter, leave or cross it. Both are kept in the "
-        "project, and the command line watches them, too.");
+        "Draw an area or a line, and the list shows which vehicles enter, leave or cross it; an arrow along a lane "
+        "says "
+        "which way is right there. All are kept in the project, and the command line watches them, too.");
 }
 
 void ZoneReview::enableActions() {
@@ -231,6 +234,7 @@ void ZoneReview::enableActions() {
     if (!possible) tool_->cancel();
     parts_.actions.draw_zone->setEnabled(possible);
     parts_.actions.draw_line->setEnabled(possible);
+    parts_.actions.draw_arrow->setEnabled(possible);
 }
 
 std::optional<std::vector<cv::Point2d>> ZoneReview::carried(const std::vector<cv::Point2d>& points, int from,
@@ -263,6 +267,7 @@ void ZoneReview::showMarks() {
         mark.name = QString::fromStdString(zone.name);
         for (const cv::Point2d& point : *points) mark.points.emplace_back(point.x, point.y);
         mark.closed = zone.shape == ZoneShape::area;
+        mark.right_way = zone.shape == ZoneShape::arrow;
         mark.colour = colourOf(stored);
         mark.selected = id == selected;
         marks.push_back(std::move(mark));

@@ -156,11 +156,19 @@ void ZoneTool::paint(QPainter& painter, const CanvasPlace& place) const {
 }
 
 void ZoneTool::paintHint(QPainter& painter, const QRectF& view) const {
-    const QString text =
-        *shape_ == ZoneShape::area
-            ? tr("Click the corners. Double-click or Enter: done · Backspace: remove the last one · Esc: cancel")
-            : tr("Click along the line. Double-click or Enter: done · Backspace: remove the last one · Esc: cancel");
-    paintToolHint(painter, view, text);
+    const auto begin = [this] {
+        switch (*shape_) {
+            case ZoneShape::area:
+                break;
+            case ZoneShape::line:
+                return tr("Click along the line.");
+            case ZoneShape::arrow:
+                return tr("Click along the lane in the right direction.");
+        }
+        return tr("Click the corners.");
+    };
+    paintToolHint(painter, view,
+                  tr("%1 Double-click or Enter: done · Backspace: remove the last one · Esc: cancel").arg(begin()));
 }
 
 }  // namespace eyrie::ui

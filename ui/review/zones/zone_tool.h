@@ -13,8 +13,8 @@ namespace eyrie::ui {
 
 class VideoView;
 
-/// Draws a zone or a line on the canvas: clicks set points, a double click, Return or the right button ends it,
-/// Backspace takes the last point back, Escape gives up. Changes nothing itself.
+/// Draws a zone, a line or an arrow on the canvas: clicks set points, a double click, Return or the right button ends
+/// it, Backspace takes the last point back, Escape gives up. Changes nothing itself.
 class ZoneTool : public QObject, public CanvasTool {
     Q_OBJECT
 

@@ -10,7 +10,21 @@ namespace eyrie::ui {
 
 namespace {
 constexpr int kSwatch = 12;  ///< px
+
+QString shapeText(const Zone& zone) {
+    switch (zone.shape) {
+        case ZoneShape::area:
+            break;
+        case ZoneShape::line:
+            return ZonesModel::tr("A line of %1 points").arg(zone.points.size());
+        case ZoneShape::arrow:
+            return ZonesModel::tr("An arrow of %1 points: near it, its direction is the right one")
+                .arg(zone.points.size());
+    }
+    return ZonesModel::tr("An area with %1 corners").arg(zone.points.size());
 }
+
+}  // namespace
 
 void ZonesModel::setZones(const std::map<int, StoredZone>& zones, const std::map<std::string, int>& events) {
     std::vector<ZoneEntry> entries;
@@ -48,8 +62,7 @@ QVariant ZonesModel::data(const QModelIndex& index, int role) const {
         case Qt::TextAlignmentRole:
             return column == events_column ? QVariant(Qt::AlignRight | Qt::AlignVCenter) : QVariant();
         case Qt::ToolTipRole: {
-            const QString what = zone.shape == ZoneShape::line ? tr("A line of %1 points").arg(zone.points.size())
-                                                               : tr("An area with %1 corners").arg(zone.points.size());
+            const QString what = shapeText(zone);
             const QString where = zone.anchor == ZoneAnchor::image
                                       ? tr("fixed to the image")
                                       : tr("fixed to the ground as frame %1 shows it").arg(zone.frame);
@@ -68,9 +81,11 @@ QVariant ZonesModel::headerData(int section, Qt::Orientation orientation, int ro
     const bool tip = role == Qt::ToolTipRole;
     switch (section) {
         case name_column:
-            return tip ? tr("Ticked: drawn over the video. Events are found in all of them") : tr("Zone or line");
+            return tip ? tr("Ticked: drawn over the video. Events are found in all of them")
+                       : tr("Zone, line or arrow");
         case events_column:
-            return tip ? tr("Vehicles that entered, left or crossed it in the run shown") : tr("Events");
+            return tip ? tr("Vehicles that entered, left or crossed it, or drove against it, in the run shown")
+                       : tr("Events");
         default:
             return tip ? tr("Whether it stays on the ground or in the image when the camera moves") : tr("Fixed to");
     }

@@ -15,7 +15,7 @@ struct ZoneEntry {
     int events = 0;  ///< in the run shown
 };
 
-/// The zones and lines of a video. Changes nothing itself: what a person writes or ticks is told.
+/// The zones, lines and arrows of a video. Changes nothing itself: what a person writes or ticks is told.
 class ZonesModel : public RecordModel<ZoneEntry> {
     Q_OBJECT
 

@@ -46,7 +46,7 @@ ZonesPanel::ZonesPanel(ZonesModel* model, const WindowActions& actions, QWidget*
     hint_->setContentsMargins(6, 2, 6, 2);
     hint_->setTextFormat(Qt::PlainText);
     table_->setModel(model_);
-    table_->setAccessibleName(tr("Zones and lines"));
+    table_->setAccessibleName(tr("Zones, lines and arrows"));
     table_->setSelectionBehavior(QAbstractItemView::SelectRows);
     table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
     table_->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed);
@@ -92,8 +92,10 @@ void ZonesPanel::buildButtons(const WindowActions& actions) {
         connect(action, &QAction::changed, button, [button, text] { button->setText(text); });
         line->addWidget(button);
     };
-    add(actions.draw_zone, tr("Draw area"));
-    add(actions.draw_line, tr("Draw line"));
+    line->addWidget(new QLabel(tr("Draw"), this));
+    add(actions.draw_zone, tr("area"));
+    add(actions.draw_line, tr("line"));
+    add(actions.draw_arrow, tr("arrow"));
     anchor_->addItems({tr("on the ground"), tr("in the image")});
     anchor_->setAccessibleName(tr("What new zones are fixed to"));
     anchor_->setToolTip(tr("New zones stay where they are on the ground, or in the image, when the camera moves"));

@@ -13,6 +13,7 @@
 #include "store/database/change_watch.h"
 #include "store/labels/annotation_store.h"
 #include "store/project/project_file.h"
+#include "store/project/video_start.h"
 #include "store/review/review_store.h"
 #include "store/runs/doubtful_tracks.h"
 
@@ -187,10 +188,21 @@ class ProjectReader::Worker {
 
     ProjectLists lists() {
         const RunStore store(*project_);
-        ProjectLists lists{project_->path(), store.runs(), store.lastRemoved(), {}, sequencesOf(*project_), {}};
+        ProjectLists lists{project_->path(), store.runs(), store.lastRemoved(), {}, sequencesOf(*project_), {}, {}};
+        readStarts(lists);
         for (const RunRecord& run : resumableRuns(store)) lists.resumable.push_back(run.id);
         any_running_ = std::any_of(lists.runs.begin(), lists.runs.end(), [](const RunRecord& run) { return run.live; });
         return lists;
+    }
+
+    void readStarts(ProjectLists& lists) {
+        for (const SequenceRecord& sequence : lists.sequences) {
+            try {
+                if (const auto start_us = videoStartOf(*project_, sequence.id)) lists.starts[sequence.id] = *start_us;
+            } catch (const Error&) {
+                // A start that cannot be read is none; the rest of the project can be shown.
+            }
+        }
     }
 
     void tellOpened() {

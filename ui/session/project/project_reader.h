@@ -1,7 +1,9 @@
 #pragma once
 
 #include <QObject>
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -19,6 +21,7 @@ struct ProjectLists {
     std::optional<RunRecord> last_removed;  ///< what can be brought back first
     std::vector<int> resumable;             ///< runs that ended early and can be gone on with
     std::vector<SequenceRecord> sequences;  ///< videos, ascending ids
+    std::map<int, std::int64_t> starts;     ///< by id of those of which a person said when they began: µs since 1970
     std::string notice;                     ///< for people, when it was opened; else empty
 };
 

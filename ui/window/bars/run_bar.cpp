@@ -1,5 +1,6 @@
 #include "window/bars/run_bar.h"
 
+#include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -79,6 +80,8 @@ RunBar::RunBar(ProjectSession& session, const WindowActions& actions, MessageBar
     first_frame_ = frameBox(tr("First frame to process"));
     last_frame_ = frameBox(tr("Last frame to process"));
 
+    makeDetails();
+
     auto* layout = new QHBoxLayout(this);
     layout->setContentsMargins(4, 2, 4, 2);
     layout->addWidget(run_button_);
@@ -96,6 +99,7 @@ RunBar::RunBar(ProjectSession& session, const WindowActions& actions, MessageBar
     named(tr("Frames"), first_frame_);
     layout->addWidget(new QLabel(QStringLiteral("–"), this));
     layout->addWidget(last_frame_);
+    named(tr("Keep"), details_);
     layout->addStretch(1);
 
     whenChanged(
@@ -112,6 +116,35 @@ RunBar::RunBar(ProjectSession& session, const WindowActions& actions, MessageBar
             {{SessionChange::following, SessionChange::run_started, SessionChange::run_ended}, [this] { enable(); }},
         });
     refresh();
+}
+
+void RunBar::makeDetails() {
+    const RecordingOptions& kept = session_.settings().recording;
+    details_ = new QComboBox(this);
+    details_->setObjectName(QStringLiteral("kept_details"));
+    details_->setAccessibleName(tr("What the run keeps beside its tracks"));
+    // The bar has to fit into small windows.
+    details_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    details_->setMinimumContentsLength(9);
+    const auto choice = [this](const QString& text, KeptDetails details) {
+        details_->addItem(text, static_cast<int>(details));
+    };
+    choice(tr("automatic"), KeptDetails::automatic);
+    choice(tr("all details"), KeptDetails::all);
+    choice(tr("1 frame in %1").arg(kept.details_every), KeptDetails::sampled);
+    choice(tr("only tracks"), KeptDetails::none);
+    details_->setToolTip(
+        tr("Of which frames the next run keeps what its tracks were made from (recording.details): some 30 to 60 kB a "
+           "frame, about 5 GB for an hour at 25 frames per second.\n\n"
+           "Why?, Stages, Stacks, the motion vectors and detections over the video, causes of errors and sweeps need "
+           "it. Tracks, events, measures, exports and reports do not, and what is found is the same.\n\n"
+           "automatic: of all frames of a run over no more than %1, of none of a longer one.")
+            .arg(locale().toString(kept.details_up_to)));
+    bindCommands(this, {{details_, [this] {
+                             session_.settings().recording.details =
+                                 static_cast<KeptDetails>(details_->currentData().toInt());
+                             emit editingDone();
+                         }}});
 }
 
 void RunBar::forgetRefusal() {
@@ -132,6 +165,7 @@ void RunBar::refresh() {
     refreshing_ = true;
     const RunSettings& settings = session_.settings();
     gsd_->setText(gsdOfSettings());
+    details_->setCurrentIndex(details_->findData(static_cast<int>(settings.recording.details)));
     if (const auto& video = session_.video()) {
         frame_rate_->setValue(video->frame_rate_hz);
         frame_rate_->setSuffix(video->frame_rate_assumed ? tr(" fps?") : tr(" fps"));
@@ -188,8 +222,7 @@ bool RunBar::takeEdits() {
 
 void RunBar::enable() {
     const bool idle = session_.video().has_value() && !session_.running();
-    for (QWidget* field :
-         {static_cast<QWidget*>(gsd_), static_cast<QWidget*>(first_frame_), static_cast<QWidget*>(last_frame_)})
+    for (QWidget* field : std::initializer_list<QWidget*>{gsd_, first_frame_, last_frame_, details_})
         field->setEnabled(idle);
     frame_rate_->setEnabled(idle && !session_.videoMissing());
     stop_button_->setVisible(session_.running());

@@ -4,6 +4,7 @@
 
 #include "session/project_session.h"
 
+class QComboBox;
 class QDoubleSpinBox;
 class QLabel;
 class QLineEdit;
@@ -16,7 +17,7 @@ class MessageBar;
 class WindowActions;
 
 /// Run and stop, with what the next run is made with besides its parameters: ground sampling distance, frame rate,
-/// range of frames.
+/// range of frames, and what it keeps of them.
 class RunBar : public QWidget {
     Q_OBJECT
 
@@ -52,6 +53,7 @@ class RunBar : public QWidget {
     void tellAssumedRate();
     void rangeEdited();
     void takeRange();
+    void makeDetails();
     void enable();
 
     ProjectSession& session_;
@@ -62,6 +64,7 @@ class RunBar : public QWidget {
     QDoubleSpinBox* frame_rate_;
     QSpinBox* first_frame_;
     QSpinBox* last_frame_;
+    QComboBox* details_;
     bool refreshing_ = false;
 };
 

@@ -1,0 +1,154 @@
+#include "ground/track_looks.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "ground/track_likeness.h"
+
+namespace eyrie::track_looks_test {
+namespace {
+
+const cv::Scalar kRed(40, 40, 200), kBlue(200, 60, 40), kWhite(235, 235, 235);
+
+/// A picture of painted vehicles, each the only box of a track.
+class PaintedStreet {
+ public:
+    explicit PaintedStreet(double light = 0) : light_(light) {
+        colour_ = cv::Mat(300, 500, CV_8UC3, cv::Scalar::all(100 + light));
+    }
+    /// A body in one colour with a dark windscreen, which may be missing.
+    void park(TrackId id, cv::Point2d at, double heading, const cv::Scalar& paint, double length = 30,
+              bool windscreen = true) {
+        const OrientedBox box{at, length, length * 0.45, heading};
+        fill(box, paint);
+        const cv::Point2d ahead = box.direction() * (length * 0.2);
+        if (windscreen) fill({at + ahead, length * 0.15, length * 0.4, heading}, cv::Scalar::all(20));
+        tracks_.push_back({id, {{0, box}}});
+    }
+    LooksByTrack looks(bool with_colour = true) const {
+        LookTaker taker(tracks_);
+        Frame frame;
+        frame.colour = with_colour ? colour_ : cv::Mat();
+        cv::cvtColor(colour_, frame.gray, cv::COLOR_BGR2GRAY);
+        taker.look(frame);
+        return taker.looks();
+    }
+
+ private:
+    void fill(const OrientedBox& box, const cv::Scalar& paint) {
+        std::vector<cv::Point> corners;
+        for (const cv::Point2d& corner : box.corners()) corners.emplace_back(cvRound(corner.x), cvRound(corner.y));
+        cv::fillConvexPoly(colour_, corners, paint + cv::Scalar::all(light_), cv::LINE_AA);
+    }
+    double light_;
+    cv::Mat colour_;
+    std::vector<EventTrack> tracks_;
+};
+
+EventTrack trackOver(TrackId id, FrameIndex first, FrameIndex last) {
+    EventTrack track{id, {}};
+    for (FrameIndex frame = first; frame <= last; ++frame)
+        track.boxes.push_back({frame, {{50. + frame, 40}, 20, 9, 0}});
+    return track;
+}
+
+}  // namespace
+
+TEST(TrackLooks, ColourTellsVehiclesApartAndPlaceHeadingAndSizeDoNot) {
+    PaintedStreet street;
+    street.park(1, {100, 100}, 0, kRed);
+    street.park(2, {300, 200}, 1.1, kRed);
+    street.park(3, {200, 80}, -2.5, kRed, 48);
+    street.park(4, {400, 80}, 0, kBlue);
+    street.park(5, {100, 220}, 0, kWhite);
+    const LooksByTrack looks = street.looks();
+    ASSERT_EQ(looks.size(), 5U);
+    EXPECT_NEAR(lookLikeness(looks.at(1), looks.at(1)), 1, 1e-3);
+    EXPECT_GT(lookLikeness(looks.at(1), looks.at(2)), 0.6);
+    EXPECT_GT(lookLikeness(looks.at(1), looks.at(3)), 0.6);
+    EXPECT_LT(lookLikeness(looks.at(1), looks.at(4)), 0.3);
+    EXPECT_LT(lookLikeness(looks.at(1), looks.at(5)), 0.3);
+    EXPECT_EQ(lookLikeness(looks.at(1), looks.at(4)), lookLikeness(looks.at(4), looks.at(1)));
+}
+
+TEST(TrackLooks, TheLightOfTheDayDoesNotMatterAndGreyPicturesTellBrightness) {
+    const auto parked = [](double light) {
+        PaintedStreet street(light);
+        street.park(1, {100, 100}, 0, cv::Scalar::all(150));
+        street.park(2, {300, 200}, 0, cv::Scalar::all(60));
+        return street;
+    };
+    const LooksByTrack noon = parked(30).looks(false);
+    const LooksByTrack evening = parked(-15).looks(false);
+    EXPECT_GT(lookLikeness(noon.at(1), evening.at(1)), 0.6);
+    EXPECT_LT(lookLikeness(noon.at(1), evening.at(2)), 0.4);
+}
+
+TEST(TrackLooks, OutlinesTellVehiclesOfOneColourApart) {
+    PaintedStreet street;
+    street.park(1, {100, 100}, 0, kWhite);
+    street.park(2, {300, 100}, 0.4, kWhite);
+    street.park(3, {100, 220}, 0, kWhite, 30, false);
+    const LooksByTrack looks = street.looks();
+    EXPECT_GT(lookLikeness(looks.at(1), looks.at(2)), lookLikeness(looks.at(1), looks.at(3)));
+}
+
+TEST(TrackLooks, TracksShareTheFewFramesInWhichTheyAreLookedAt) {
+    std::vector<EventTrack> tracks;
+    for (TrackId id = 1; id <= 50; ++id) tracks.push_back(trackOver(id, 0, 400 + id % 5));
+    tracks.push_back(trackOver(51, 1001, 1003));
+    const std::vector<FrameIndex> frames = LookTaker(tracks).frames();
+    EXPECT_TRUE(std::is_sorted(frames.begin(), frames.end()));
+    EXPECT_LE(frames.size(), 9U) << "three for all that live together, and those of the short one";
+    EXPECT_GE(frames.back(), 1001);
+    // However many there are.
+    std::vector<EventTrack> hour;
+    for (TrackId id = 1; id <= 3000; ++id) hour.push_back(trackOver(id, 30 * id, 30 * id + 500));
+    EXPECT_LE(LookTaker(hour).frames().size(), 400U);
+    EXPECT_TRUE(LookTaker({}).frames().empty());
+}
+
+TEST(TrackLooks, WhatNoFrameShowsHasNone) {
+    LookTaker taker({trackOver(1, 0, 100), {2, {{25, {{-90, 40}, 20, 9, 0}}}}});
+    Frame frame;
+    frame.gray = cv::Mat(100, 200, CV_8UC1, cv::Scalar(90));
+    frame.index = 3;
+    taker.look(frame);
+    EXPECT_TRUE(taker.looks().empty()) << "nobody asked for this frame";
+    for (const FrameIndex index : taker.frames()) {
+        frame.index = index;
+        taker.look(frame);
+    }
+    EXPECT_THAT(taker.looks(), testing::ElementsAre(testing::Key(1))) << "the other one is out of the picture";
+}
+
+TEST(LikenessChoice, WhatCountsIsAGeometricMeanWithPathAndLooksTwice) {
+    const TrackLikeness parts{.track = 1, .path = 0.5, .speed = 0.9, .size = 0.8, .looks = 0.3};
+    EXPECT_NEAR(likenessBy(parts, {}), std::sqrt(0.5 * std::sqrt(0.9 * 0.8)), 1e-12);
+    EXPECT_NEAR(likenessBy(parts, {.looks = true}), std::pow(0.25 * 0.9 * 0.8 * 0.09, 1 / 6.0), 1e-12);
+    EXPECT_NEAR(likenessBy(parts, {false, false, false, true}), 0.3, 1e-12);
+    TrackLikeness unseen = parts;
+    unseen.looks.reset();
+    EXPECT_EQ(likenessBy(unseen, {.looks = true}), likenessBy(unseen, {})) << "the rest counts";
+    EXPECT_EQ(likenessBy(unseen, {false, false, false, true}), 0);
+}
+
+TEST(LikenessChoice, LooksAreComparedWithThoseOfTheChosenOne) {
+    PaintedStreet street;
+    street.park(1, {100, 100}, 0, kRed);
+    street.park(2, {300, 200}, 0, kRed);
+    street.park(3, {400, 80}, 0, kBlue);
+    std::vector<TrackLikeness> found{{.track = 2}, {.track = 3}, {.track = 4}};
+    compareLooks(found, street.looks(), 1);
+    ASSERT_TRUE(found[0].looks && found[1].looks);
+    EXPECT_GT(*found[0].looks, *found[1].looks);
+    EXPECT_FALSE(found[2].looks) << "no picture showed it";
+    std::vector<TrackLikeness> unknown{{.track = 2}};
+    compareLooks(unknown, street.looks(), 9);
+    EXPECT_FALSE(unknown[0].looks);
+}
+
+}  // namespace eyrie::track_looks_test
