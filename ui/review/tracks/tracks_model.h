@@ -43,6 +43,7 @@ class TracksModel : public RecordModel<TrackSummary> {
     void setLikeness(std::shared_ptr<const LikenessByTrack> likeness);
     /// Times of the day instead of numbers of frames, where they are known. To be given again when they are others.
     void setClock(ClockOfFrames clock);
+    const ClockOfFrames& clock() const { return clock_; }
     const SceneScale& scale() const { return scale_; }
 
     int columnCount(const QModelIndex& parent = {}) const override { return parent.isValid() ? 0 : column_count; }

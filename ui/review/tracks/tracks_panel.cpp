@@ -16,13 +16,20 @@
 
 namespace eyrie::ui {
 
+namespace {
+
+constexpr int kFollowNow_ms = 200;
+
+}  // namespace
+
 TracksPanel::TracksPanel(TracksModel* model, QWidget* parent)
     : TablePanel(model, QStringLiteral("tracks"), parent),
       tracks_(model),
       tentative_(new QToolButton(this)),
       sensitivity_(new QSlider(Qt::Horizontal, this)),
       count_(new QLabel(this)),
-      chips_(new FilterChips(this)) {
+      chips_(new FilterChips(this)),
+      now_due_(kFollowNow_ms, [this] { filterTracks(); }) {
     table()->setAccessibleName(tr("Tracks"));
     emptyState()->setTexts(
         tr("The tracks of a run are listed here: one row for each moving vehicle, with its life, speed and size."));
@@ -51,8 +58,13 @@ TracksPanel::TracksPanel(TracksModel* model, QWidget* parent)
     connect(chips_, &FilterChips::doingsWanted, this, [this] { commands_.want_doings(); });
     onEdited(this, &TracksPanel::useSensitivity, sensitivity_);
     whenAny(
-        model, this, [this] { chips_->setScale(tracks_->scale()); }, &QAbstractItemModel::modelReset,
-        &QAbstractItemModel::rowsInserted, &QAbstractItemModel::headerDataChanged);
+        model, this,
+        [this] {
+            chips_->setScale(tracks_->scale());
+            chips_->setClockKnown(tracks_->clock().known());
+            if (chips_->filter().time.ofDay()) filterTracks();  // maybe by another clock
+        },
+        &QAbstractItemModel::modelReset, &QAbstractItemModel::rowsInserted, &QAbstractItemModel::headerDataChanged);
     whenAny(model, this, &TracksPanel::showCount, &QAbstractItemModel::dataChanged, &QAbstractItemModel::rowsRemoved);
     whenAny(&proxy(), this, &TracksPanel::showCount, &QAbstractItemModel::modelReset, &QAbstractItemModel::rowsInserted,
             &QAbstractItemModel::rowsRemoved);
@@ -99,8 +111,20 @@ bool TracksPanel::isOfTheRun(const TrackSummary& track) const {
 }
 
 bool TracksPanel::isListed(const TrackSummary& track) const {
-    return isOfTheRun(track) && track.score >= minScore() &&
-           chips_->filter().holds(track, tracks_->scale(), doings_.get(), likeness_.get());
+    return isOfTheRun(track) && track.score >= minScore() && chips_->filter().holds(track, tracks_->scale(), facts());
+}
+
+TrackFacts TracksPanel::facts() const {
+    return {.doings = doings_.get(),
+            .likeness = likeness_.get(),
+            .frame_of_day = tracks_->clock().frame_of_day,
+            .now = shown_frame_};
+}
+
+void TracksPanel::setShownFrame(FrameIndex frame) {
+    if (shown_frame_ == frame) return;
+    shown_frame_ = frame;
+    if (chips_->filter().asksNow() && !now_due_.pending()) now_due_.start();
 }
 
 void TracksPanel::filterTracks() {

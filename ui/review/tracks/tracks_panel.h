@@ -46,10 +46,12 @@ class TracksPanel : public TablePanel {
     void setThreshold(double score);
     /// How unsure tracks may be that are listed, 0 … 100 %: at 100 all are, at 40 those with a score of 0.6 or more.
     QSlider* sensitivity() const { return sensitivity_; }
-    /// What narrows the list further, by speed, life, length, score, direction, events and zones.
+    /// What narrows the list further, by speed, life, length, score, direction, events, zones, time and state.
     FilterChips& chips() { return *chips_; }
     /// What the tracks did, for the chips; null while nobody knows.
     void setDoings(const std::shared_ptr<const DoingsByTrack>& doings);
+    /// The frame that is shown, for "moving now"; while it plays, the list follows now and then.
+    void setShownFrame(FrameIndex frame);
     /// Lists tracks like this one, the most like first, until the chip that says so is removed; none: does not.
     void listLike(std::optional<TrackId> track);
     /// How like tracks are to the one that was asked about; of another one it counts for nothing.
@@ -73,6 +75,7 @@ class TracksPanel : public TablePanel {
     void orderByLikeness(bool wanted);
     bool isOfTheRun(const TrackSummary& track) const;
     bool isListed(const TrackSummary& track) const;
+    TrackFacts facts() const;
     void filterTracks();
     void showCount();
     double minScore() const;
@@ -89,8 +92,10 @@ class TracksPanel : public TablePanel {
     FilterChips* chips_;
     std::shared_ptr<const DoingsByTrack> doings_;
     std::shared_ptr<const LikenessByTrack> likeness_;
+    std::optional<FrameIndex> shown_frame_;
     std::optional<TrackId> like_;                        ///< that was asked about
     std::pair<int, Qt::SortOrder> order_before_like_{};  ///< column and order
+    DelayedCall now_due_;
 };
 
 }  // namespace eyrie::ui

@@ -53,6 +53,7 @@ ReviewDocks::ReviewDocks(const ReviewParts& parts) : QObject(&parts.docks), part
                      [this] { showRuns(); }},
                     {SessionChange::run_data, [this] { adoptAwaitedParameters(); }},
                     {{SessionChange::current_run, SessionChange::run_data}, [this] { showTracks(); }},
+                    {SessionChange::picture, [this] { tracks_->setShownFrame(session_.shownFrame()); }},
                     {SessionChange::selection, [this] { tracks_->selectId(session_.selectedTrack().value_or(0)); }},
                 });
     wireRuns();
