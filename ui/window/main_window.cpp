@@ -33,6 +33,7 @@
 #include "review/inspector/track_inspector.h"
 #include "review/mosaic/mosaic_panel.h"
 #include "review/mosaic/mosaic_view.h"
+#include "review/tracks/filter_chips.h"
 #include "review/tracks/like_tracks.h"
 #include "review/tracks/tracks_panel.h"
 #include "review/watch/seen_watch.h"
@@ -102,6 +103,10 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     review_ = new ReviewDocks({session_, *inspection_, *measured_, *docks_, *actions_, overlays_, *guard_, *messages_});
     events_ = new EventsDock({session_, *canvas_, *timeline_, *docks_, *actions_, *messages_});
     review_->setDoingsWanted([this] { events_->review().setWanted(); });
+    review_->setQueryChanged([this] {
+        TracksPanel& tracks = review_->tracks();
+        events_->panel().setQuery(tracks.query(), [&tracks] { tracks.chips().clear(); });
+    });
     events_->correcting().setList(review_->tracks());
     docks_->watch(DockId::tracks, &events_->correcting(), [this](bool) { events_->correcting().enableActions(); });
     connect(events_, &EventsDock::eventsShown, this, [this] {

@@ -46,6 +46,9 @@ class TracksModel : public RecordModel<TrackSummary> {
     const ClockOfFrames& clock() const { return clock_; }
     const SceneScale& scale() const { return scale_; }
 
+    /// All, ascending id.
+    const std::vector<TrackSummary>& tracks() const { return records(); }
+
     int columnCount(const QModelIndex& parent = {}) const override { return parent.isValid() ? 0 : column_count; }
     QVariant data(const QModelIndex& index, int role) const override;
     QVariant headerData(int section, Qt::Orientation orientation, int role) const override;

@@ -9,6 +9,7 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <cmath>
+#include <utility>
 
 #include "review/tracks/filter_chips.h"
 #include "widgets/empty_state.h"
@@ -65,6 +66,8 @@ TracksPanel::TracksPanel(TracksModel* model, QWidget* parent)
             if (chips_->filter().time.ofDay()) filterTracks();  // maybe by another clock
         },
         &QAbstractItemModel::modelReset, &QAbstractItemModel::rowsInserted, &QAbstractItemModel::headerDataChanged);
+    whenAny(model, this, &TracksPanel::tellQuery, &QAbstractItemModel::modelReset, &QAbstractItemModel::rowsInserted,
+            &QAbstractItemModel::rowsRemoved, &QAbstractItemModel::dataChanged);
     whenAny(model, this, &TracksPanel::showCount, &QAbstractItemModel::dataChanged, &QAbstractItemModel::rowsRemoved);
     whenAny(&proxy(), this, &TracksPanel::showCount, &QAbstractItemModel::modelReset, &QAbstractItemModel::rowsInserted,
             &QAbstractItemModel::rowsRemoved);
@@ -160,7 +163,21 @@ void TracksPanel::setDoings(const std::shared_ptr<const DoingsByTrack>& doings) 
     if (doings_ == doings) return;
     doings_ = doings;
     chips_->setDoings(doings);
-    if (chips_->filter().any()) filterTracks();
+    if (!chips_->filter().any()) return;
+    filterTracks();
+    tellQuery();
+}
+
+std::shared_ptr<const TrackQuery> TracksPanel::query() const {
+    if (!chips_->filter().any()) return nullptr;
+    return std::make_shared<const TrackQuery>(chips_->filter(), tracks_->tracks(), tracks_->scale(),
+                                              TrackQuery::Known{doings_, likeness_}, tracks_->clock().frame_of_day);
+}
+
+void TracksPanel::tellQuery() {
+    const bool any = chips_->filter().any();
+    if (!std::exchange(told_query_, any) && !any) return;
+    commands_.query_changed();
 }
 
 // ---- tracks like one ------------------------------------------------------------------------------------------------
@@ -180,6 +197,7 @@ void TracksPanel::useFilter() {
         commands_.want_likeness(like);
     }
     filterTracks();
+    tellQuery();
 }
 
 void TracksPanel::setLikeness(const std::shared_ptr<const LikenessByTrack>& likeness) {
@@ -187,6 +205,7 @@ void TracksPanel::setLikeness(const std::shared_ptr<const LikenessByTrack>& like
     likeness_ = likeness;
     tracks_->setLikeness(likeness);
     filterTracks();
+    tellQuery();
 }
 
 void TracksPanel::orderByLikeness(bool wanted) {

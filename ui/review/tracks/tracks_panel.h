@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "review/tracks/track_doings.h"
+#include "review/tracks/track_query.h"
 #include "review/tracks/tracks_model.h"
 #include "widgets/tables/table_panel.h"
 
@@ -26,6 +27,8 @@ struct TrackListCommands {
     std::function<void(double score)> use_min_score = [](double) {};
     /// What the tracks did is asked for: setDoings().
     std::function<void()> want_doings = [] {};
+    /// The chips narrow to something else, or what they ask for is known otherwise: query().
+    std::function<void()> query_changed = [] {};
     /// How like the others are to this track is asked for, setLikeness(); none: no more.
     std::function<void(std::optional<TrackId> track)> want_likeness = [](std::optional<TrackId>) {};
 };
@@ -48,6 +51,8 @@ class TracksPanel : public TablePanel {
     QSlider* sensitivity() const { return sensitivity_; }
     /// What narrows the list further, by speed, life, length, score, direction, events, zones, time and state.
     FilterChips& chips() { return *chips_; }
+    /// The chips as they narrow what happens to tracks; null where they narrow nothing.
+    std::shared_ptr<const TrackQuery> query() const;
     /// What the tracks did, for the chips; null while nobody knows.
     void setDoings(const std::shared_ptr<const DoingsByTrack>& doings);
     /// The frame that is shown, for "moving now"; while it plays, the list follows now and then.
@@ -71,6 +76,7 @@ class TracksPanel : public TablePanel {
  private:
     void activate(int track, int column);
     void useFilter();
+    void tellQuery();
     /// Brings the column of likeness and its order, or takes them away again.
     void orderByLikeness(bool wanted);
     bool isOfTheRun(const TrackSummary& track) const;
@@ -93,6 +99,7 @@ class TracksPanel : public TablePanel {
     std::shared_ptr<const DoingsByTrack> doings_;
     std::shared_ptr<const LikenessByTrack> likeness_;
     std::optional<FrameIndex> shown_frame_;
+    bool told_query_ = false;                            ///< there was one
     std::optional<TrackId> like_;                        ///< that was asked about
     std::pair<int, Qt::SortOrder> order_before_like_{};  ///< column and order
     DelayedCall now_due_;

@@ -114,6 +114,7 @@ void ReviewDocks::wireTracks() {
             },
         .use_min_score = [this](double score) { parts_.overlays.setMinScore(score); },
         .want_doings = [this] { want_doings_(); },
+        .query_changed = [this] { tell_query_(); },
         .want_likeness = [this](std::optional<TrackId> track) { want_likeness_(track); },
     });
     const WindowActions& actions = parts_.actions;
