@@ -1,5 +1,6 @@
 #include <QCheckBox>
 #include <QFrame>
+#include <QHeaderView>
 #include <QJsonDocument>
 #include <QJsonObject>
 #include <QLineEdit>
@@ -94,7 +95,10 @@ class TrackFilterTest : public QObject {
     }
 
  private slots:
-    void init() { home_ = std::make_unique<test::OwnHome>(); }
+    void init() {
+        QLocale::setDefault(QLocale::c());
+        home_ = std::make_unique<test::OwnHome>();
+    }
     void cleanup() { home_.reset(); }
 
     void limitsAreInTheUnitsShownAndIncludeTheirEnds() {
@@ -225,6 +229,60 @@ class TrackFilterTest : public QObject {
         filter.conditions.insert(TrackCondition::rejected);
         QVERIFY(filter.holds(track, kMetres, {}));
         QCOMPARE(chipText(filter, TrackQuality::state, kMetres), QStringLiteral("State corrected, rejected"));
+    }
+
+    void theLowestAndTheHighestSpeedNarrowAndAreShownWhereTheyAreKnown() {
+        // 36 and 72 km/h; track 3 was seen too shortly.
+        const auto doings =
+            std::make_shared<const DoingsByTrack>(doingsOf(*threeDriven(), {}, {{1, {0, 10}}, {2, {10, 20}}}));
+        TrackFilter filter;
+        filter.range(TrackQuality::highest) = {50, std::nullopt};
+        QVERIFY(!filter.holds(trackOf(1), kMetres, {.doings = doings.get()}));
+        QVERIFY(filter.holds(trackOf(2), kMetres, {.doings = doings.get()}));
+        QVERIFY(!filter.holds(trackOf(3), kMetres, {.doings = doings.get()}));
+        QVERIFY2(filter.holds(trackOf(1), kMetres, {}), "nobody knows yet");
+        QCOMPARE(chipText(filter, TrackQuality::highest, kMetres), QStringLiteral("Highest speed ≥ 50 km/h"));
+        QCOMPARE(TrackFilter::fromJson(filter.json()), filter);
+        filter = {};
+        filter.range(TrackQuality::lowest) = {std::nullopt, 0.0};
+        QVERIFY(filter.holds(trackOf(1), kMetres, {.doings = doings.get()}));
+        QVERIFY(!filter.holds(trackOf(2), kMetres, {.doings = doings.get()}));
+
+        TracksModel model;
+        TracksPanel panel(&model);
+        panel.show();
+        model.setTracks(tenTracks(), kMetres);
+        const auto cell = [&](int row, int column) { return model.index(row, column).data().toString(); };
+        QCOMPARE(cell(1, TracksModel::highest_column), QString());
+        panel.setDoings(doings);
+        QCOMPARE(cell(0, TracksModel::lowest_column), QStringLiteral("0.0"));
+        QCOMPARE(cell(1, TracksModel::lowest_column), QStringLiteral("36.0"));
+        QCOMPARE(cell(1, TracksModel::highest_column), QStringLiteral("72.0"));
+        QCOMPARE(cell(2, TracksModel::highest_column), QString());
+        panel.table()->sortByColumn(TracksModel::highest_column, Qt::DescendingOrder);
+        QCOMPARE(listed(panel).at(0), 2);
+        QCOMPARE(listed(panel).at(1), 1);
+        model.setTracks(tenTracks(), {0.1, 25, false});  // 20 m/s are 8 px a frame there
+        QCOMPARE(cell(1, TracksModel::highest_column), QStringLiteral("8.00"));
+        QCOMPARE(model.headerData(TracksModel::highest_column, Qt::Horizontal, Qt::DisplayRole).toString(),
+                 QStringLiteral("Highest (px/frame)"));
+    }
+
+    void columnsOfExtremesAreHiddenUntilSomebodyShowsThem() {
+        TracksModel model;
+        {
+            TracksPanel panel(&model);
+            model.setTracks(tenTracks(), kMetres);
+            const QHeaderView* header = panel.table()->horizontalHeader();
+            QVERIFY(panel.table()->isColumnHidden(TracksModel::lowest_column));
+            QVERIFY(panel.table()->isColumnHidden(TracksModel::highest_column));
+            QCOMPARE(header->visualIndex(TracksModel::lowest_column),
+                     header->visualIndex(TracksModel::speed_column) + 1);
+            panel.table()->showColumn(TracksModel::highest_column);
+        }
+        const TracksPanel panel(&model);
+        QVERIFY(panel.table()->isColumnHidden(TracksModel::lowest_column));
+        QVERIFY(!panel.table()->isColumnHidden(TracksModel::highest_column));
     }
 
     void theListFollowsTheFrameShownWhereAChipAsksForIt() {

@@ -51,7 +51,8 @@ void put(std::set<Value>& values, const Value& value, bool in) {
 FilterChips::FilterChips(QWidget* parent) : QWidget(parent), add_(new QToolButton(this)) {
     auto* row = new FlowLayout(this);
     add_->setText(tr("+ Filter"));
-    add_->setToolTip(tr("Narrow the list: speed, life, length, score, direction, events, zones, time, state"));
+    add_->setToolTip(tr(
+        "Narrow the list: speed (mean, lowest, highest), life, length, score, direction, events, zones, time, state"));
     add_->setPopupMode(QToolButton::InstantPopup);
     auto* menu = new QMenu(add_);
     connect(menu, &QMenu::aboutToShow, this, [this, menu] {

@@ -76,8 +76,10 @@ int eighthOf(double heading) {
     return ((eighth % kEighths) + kEighths) % kEighths;
 }
 
-DoingsByTrack doingsOf(const StoredTracks& run, const std::vector<Event>& events) {
+DoingsByTrack doingsOf(const StoredTracks& run, const std::vector<Event>& events,
+                       const std::map<TrackId, SpeedRange>& speeds) {
     DoingsByTrack doings;
+    for (const auto& [track, range] : speeds) doings[track].speeds = range;
     for (const EventTrack& track : run.tracks) {
         const auto heading = headingOf(track, run.footage.camera);
         if (heading) doings[track.id].eighth = eighthOf(*heading);

@@ -13,7 +13,8 @@ namespace eyrie::ui {
 namespace {
 
 // Words in settings: they must not change.
-constexpr std::array<const char*, kRangedQualities> kRangeWords{"speed", "life", "size", "score"};
+constexpr std::array<const char*, kRangedQualities> kRangeWords{"speed", "lowest_speed", "highest_speed",
+                                                                "life",  "size",         "score"};
 const QString kEighthsWord = QStringLiteral("direction");
 const QString kEventsWord = QStringLiteral("events");
 const QString kZonesWord = QStringLiteral("zones");
@@ -90,8 +91,8 @@ QString nameOf(TrackCondition condition) {
 }
 
 bool needsDoings(TrackQuality quality) {
-    return quality == TrackQuality::direction || quality == TrackQuality::event || quality == TrackQuality::zone ||
-           quality == TrackQuality::state;
+    return quality == TrackQuality::lowest || quality == TrackQuality::highest || quality == TrackQuality::direction ||
+           quality == TrackQuality::event || quality == TrackQuality::zone || quality == TrackQuality::state;
 }
 
 bool TrackFilter::has(TrackQuality quality) const {
@@ -149,11 +150,13 @@ bool TrackFilter::holds(const TrackSummary& track, const SceneScale& scale, cons
         likeness->of(track.id) < like->least)
         return false;
     if (time.any() && !overlap(framesOf(time, facts.frame_of_day), {track.first_frame, track.last_frame})) return false;
+    const TrackDoings& did = doingsIn(facts.doings, track.id);
     for (int i = 0; i < kRangedQualities; ++i) {
         const auto quality = static_cast<TrackQuality>(i);
-        if (range(quality).any() && !range(quality).holds(valueOf(track, quality, scale))) return false;
+        if (!range(quality).any() || (needsDoings(quality) && facts.doings == nullptr)) continue;
+        const auto value = valueOf(track, quality, scale, did);
+        if (!value || !range(quality).holds(*value)) return false;
     }
-    const TrackDoings& did = doingsIn(facts.doings, track.id);
     if (!conditions.empty() && std::none_of(conditions.begin(), conditions.end(), [&](TrackCondition condition) {
             return isSo(condition, track, facts, did);
         }))
@@ -213,10 +216,19 @@ TrackFilter TrackFilter::fromJson(const QJsonObject& json) {
     return filter;
 }
 
-double valueOf(const TrackSummary& track, TrackQuality quality, const SceneScale& scale) {
+std::optional<double> valueOf(const TrackSummary& track, TrackQuality quality, const SceneScale& scale,
+                              const TrackDoings& did) {
+    const auto shown = [&](double metres_per_second) {
+        const SceneScale here = scale.at(track.place);
+        return shownSpeed(here.pxPerFrame(metres_per_second), here);
+    };
     switch (quality) {
         case TrackQuality::speed:
             return shownSpeed(track.mean_speed_px, scale.at(track.place));
+        case TrackQuality::lowest:
+            return did.speeds ? std::optional(shown(did.speeds->lowest)) : std::nullopt;
+        case TrackQuality::highest:
+            return did.speeds ? std::optional(shown(did.speeds->highest)) : std::nullopt;
         case TrackQuality::life:
             return scale.frame_rate_hz > 0 ? (track.last_frame - track.first_frame + 1) / scale.frame_rate_hz : 0;
         case TrackQuality::size:
@@ -230,17 +242,20 @@ double valueOf(const TrackSummary& track, TrackQuality quality, const SceneScale
 
 QString nameOf(TrackQuality quality) {
     static constexpr std::array<const char*, kTrackQualities> names{
-        QT_TRANSLATE_NOOP("TrackFilter", "Speed"),     QT_TRANSLATE_NOOP("TrackFilter", "Life"),
-        QT_TRANSLATE_NOOP("TrackFilter", "Length"),    QT_TRANSLATE_NOOP("TrackFilter", "Score"),
-        QT_TRANSLATE_NOOP("TrackFilter", "Direction"), QT_TRANSLATE_NOOP("TrackFilter", "Events"),
-        QT_TRANSLATE_NOOP("TrackFilter", "Zone"),      QT_TRANSLATE_NOOP("TrackFilter", "Time"),
-        QT_TRANSLATE_NOOP("TrackFilter", "State"),     QT_TRANSLATE_NOOP("TrackFilter", "Like")};
+        QT_TRANSLATE_NOOP("TrackFilter", "Speed"),         QT_TRANSLATE_NOOP("TrackFilter", "Lowest speed"),
+        QT_TRANSLATE_NOOP("TrackFilter", "Highest speed"), QT_TRANSLATE_NOOP("TrackFilter", "Life"),
+        QT_TRANSLATE_NOOP("TrackFilter", "Length"),        QT_TRANSLATE_NOOP("TrackFilter", "Score"),
+        QT_TRANSLATE_NOOP("TrackFilter", "Direction"),     QT_TRANSLATE_NOOP("TrackFilter", "Events"),
+        QT_TRANSLATE_NOOP("TrackFilter", "Zone"),          QT_TRANSLATE_NOOP("TrackFilter", "Time"),
+        QT_TRANSLATE_NOOP("TrackFilter", "State"),         QT_TRANSLATE_NOOP("TrackFilter", "Like")};
     return trackFilterText(names.at(static_cast<std::size_t>(quality)));
 }
 
 QString unitOf(TrackQuality quality, const SceneScale& scale) {
     switch (quality) {
         case TrackQuality::speed:
+        case TrackQuality::lowest:
+        case TrackQuality::highest:
             return speedUnit(scale);
         case TrackQuality::life:
             return QStringLiteral("s");

@@ -17,10 +17,10 @@ class QJsonObject;
 namespace eyrie::ui {
 
 /// What tracks can be narrowed by.
-enum class TrackQuality { speed, life, size, score, direction, event, zone, time, state, like };
-inline constexpr int kTrackQualities = 10;
+enum class TrackQuality { speed, lowest, highest, life, size, score, direction, event, zone, time, state, like };
+inline constexpr int kTrackQualities = 12;
 /// Those that are a number between two limits come first.
-inline constexpr int kRangedQualities = 4;
+inline constexpr int kRangedQualities = 6;
 /// Whether it asks for what the tracks did (DoingsByTrack).
 bool needsDoings(TrackQuality quality);
 
@@ -98,8 +98,9 @@ struct TrackFilter {
     static TrackFilter fromJson(const QJsonObject& json);
 };
 
-/// The number of a ranged quality as it is shown: km/h or px/frame, s, m or px, 0 … 1.
-double valueOf(const TrackSummary& track, TrackQuality quality, const SceneScale& scale);
+/// The number of a ranged quality as it is shown: km/h or px/frame, s, m or px, 0 … 1. Nothing where it is not known.
+std::optional<double> valueOf(const TrackSummary& track, TrackQuality quality, const SceneScale& scale,
+                              const TrackDoings& did);
 /// "Speed", "Life".
 QString nameOf(TrackQuality quality);
 /// "km/h"; empty for what has none.

@@ -72,6 +72,7 @@ TracksPanel::TracksPanel(TracksModel* model, QWidget* parent)
     whenAny(&proxy(), this, &TracksPanel::showCount, &QAbstractItemModel::modelReset, &QAbstractItemModel::rowsInserted,
             &QAbstractItemModel::rowsRemoved);
     onEdited(this, &TracksPanel::filterTracks, tentative_);
+    hideAtFirst({TracksModel::lowest_column, TracksModel::highest_column}, TracksModel::speed_column);
     // Left over from a day that ended with such a list.
     table()->setColumnHidden(TracksModel::like_column, true);
     if (table()->horizontalHeader()->sortIndicatorSection() == TracksModel::like_column)
@@ -163,6 +164,7 @@ void TracksPanel::setDoings(const std::shared_ptr<const DoingsByTrack>& doings) 
     if (doings_ == doings) return;
     doings_ = doings;
     chips_->setDoings(doings);
+    tracks_->setDoings(doings);
     if (!chips_->filter().any()) return;
     filterTracks();
     tellQuery();
