@@ -80,6 +80,7 @@ constexpr int kStyleCache_kB = 2048;
 constexpr int kLeastLabelRows_px = 68;
 constexpr int kMostLabelRows_px = 118;
 const QString kWorkspaces = QStringLiteral("window/workspaces");
+const QString kEventRows = QStringLiteral("window/event_rows");
 const QString kColourBlind = QStringLiteral("window/colour_blind");  ///< of all workspaces: eyes stay the same
 
 }  // namespace
@@ -269,6 +270,9 @@ void MainWindow::buildWorkspaces() {
     });
     overlays_.setPalette(settings_.value(kColourBlind, false).toBool() ? PaletteKind::colour_blind
                                                                        : PaletteKind::thesis);
+    bindSwitches(this, {{actions_->event_rows, [this](bool on) { timeline_->setKindsShown(on); }}});
+    connect(timeline_, &TimelineView::kindsShownWanted, actions_->event_rows, &QAction::setChecked);
+    actions_->event_rows->setChecked(settings_.value(kEventRows, true).toBool());
     workspaces_->restore(settings_.value(kWorkspaces, {}).toMap());
 }
 
@@ -451,6 +455,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
     files_->rememberView();
     settings_.setGeometry(saveGeometry());
     settings_.setValue(kColourBlind, overlays_.palette() == PaletteKind::colour_blind);
+    settings_.setValue(kEventRows, timeline_->kindsShown());
     settings_.setValue(kWorkspaces, workspaces_->state());
     session_.stopRun();  // the run's own thread finishes storing while the program goes down
     event->accept();

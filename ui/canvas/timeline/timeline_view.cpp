@@ -37,7 +37,7 @@ std::int64_t roundedToDecimals(std::int64_t time_us, int decimals) {
 }  // namespace
 
 struct TimelineView::Rows {
-    QRectF ruler, quality, marks, watched, activity, track;
+    QRectF ruler, quality, marks, kinds, watched, activity, track;
 };
 
 TimelineView::TimelineView(QWidget* parent) : QWidget(parent) {
@@ -53,6 +53,7 @@ void TimelineView::setTimes(std::vector<std::int64_t> times_us) {
     track_life_.reset();
     run_range_.reset();
     setMarks({}, {});
+    setKinds({});
     setWatched(std::nullopt);
     seams_ = {};
     axis_.setFrameCount(static_cast<int>(times_us_.size()));
@@ -115,7 +116,47 @@ void TimelineView::setTrackLife(std::optional<std::pair<FrameIndex, FrameIndex>>
 
 int TimelineView::wantedHeight() const {
     return kHeight + (marks_.empty() ? 0 : static_cast<int>(kMarkHeight + kGap - 2)) +
+           (kindsHeight() > 0 ? static_cast<int>(kindsHeight() + kGap - 2) : 0) +
            (watched_ ? static_cast<int>(kWatchedHeight + kGap - 2) : 0);
+}
+
+void TimelineView::setKinds(std::vector<TimelineKind> kinds) {
+    const int height = wantedHeight();
+    kinds_ = TimelineKinds(std::move(kinds));
+    if (wantedHeight() != height) updateGeometry();
+    update();
+}
+
+void TimelineView::setKindsShown(bool shown) {
+    if (shown == kinds_shown_) return;
+    kinds_shown_ = shown;
+    updateGeometry();
+    update();
+}
+
+std::optional<QPointF> TimelineView::placeInKinds(int id) const {
+    const auto found = kinds_.find(id);
+    if (!found || !kinds_shown_) return std::nullopt;
+    const double x = axis_.centreOf(found->second.first);
+    const double y = rows().kinds.top() + found->first * TimelineKinds::kRowStep + TimelineKinds::kRowHeight / 2;
+    return x >= axis_.left() && x <= axis_.right() ? std::optional(QPointF(x, y)) : std::nullopt;
+}
+
+std::optional<int> TimelineView::kindRowAt(QPointF place) const {
+    const QRectF row = rows().kinds;
+    return row.contains(place) ? kinds_.rowAt(place.y() - row.top()) : std::nullopt;
+}
+
+std::optional<int> TimelineView::idAt(QPointF place) const {
+    if (const TimelineMark* mark = markAt(place)) return mark->id;
+    const auto row = kindRowAt(place);
+    return row ? kinds_.nearest(*row, place.x(), axis_, kMarkReach) : std::nullopt;
+}
+
+bool TimelineView::isFoldSwitch(QPointF place) const {
+    const Rows row = rows();
+    return !kinds_.empty() && !marks_.empty() && place.x() < axis_.left() && place.y() >= row.marks.top() &&
+           place.y() <= std::max(row.marks.bottom(), row.kinds.bottom());
 }
 
 void TimelineView::setWatched(std::optional<std::vector<FrameSpan>> spans) {
@@ -195,7 +236,9 @@ TimelineView::Rows TimelineView::rows() const {
     rows.track = QRectF(left, height() - kTrackHeight - 4, width, kTrackHeight);
     const double top = rows.quality.bottom() + (marks_.empty() ? 0 : kGap - 2);
     rows.marks = QRectF(left, top, width, marks_.empty() ? 0 : kMarkHeight);
-    rows.watched = QRectF(left, rows.marks.bottom() + (watched_ ? kGap - 2 : 0), width, watched_ ? kWatchedHeight : 0);
+    const double kinds = kindsHeight();
+    rows.kinds = QRectF(left, rows.marks.bottom() + (kinds > 0 ? kGap - 2 : 0), width, kinds);
+    rows.watched = QRectF(left, rows.kinds.bottom() + (watched_ ? kGap - 2 : 0), width, watched_ ? kWatchedHeight : 0);
     const double below = rows.watched.bottom() + kGap;
     rows.activity = QRectF(left, below, width, rows.track.top() - kGap - below);
     return rows;
@@ -217,7 +260,11 @@ void TimelineView::paintEvent(QPaintEvent*) {
     };
     name(row.ruler, utc_at_ ? tr("Time (UTC)") : tr("Time"));
     name(row.quality, tr("Registration"));
-    if (!marks_.empty()) name(row.marks, marks_name_);
+    if (!marks_.empty())
+        name(row.marks, kinds_.empty() ? marks_name_
+                        : kinds_shown_ ? QStringLiteral("▾ ") + marks_name_
+                                       : QStringLiteral("▸ ") + marks_name_);
+    if (row.kinds.height() >= fontMetrics().height()) name(row.kinds, tr("by kind"));
     if (watched_) name(row.watched, tr("Watched"));
     if (frames_.empty()) {
         name(row.activity, tr("Activity"));
@@ -237,6 +284,7 @@ void TimelineView::paintEvent(QPaintEvent*) {
     painter.setClipRect(QRectF(axis_.left() - 1, 0, axis_.right() - axis_.left() + 2, height()));
     paintQuality(painter, row.quality);
     paintMarks(painter, row.marks);
+    paintKinds(painter, row.kinds);
     paintWatched(painter, row.watched);
     activity().paint(painter, row.activity, axis_);
     paintTrackLife(painter, row.track);
@@ -314,6 +362,17 @@ void TimelineView::paintMarks(QPainter& painter, const QRectF& row) const {
     for (const TimelineMarks::Stroke& stroke : marks_.strokes(axis_))
         painter.fillRect(QRectF(stroke.x - 1, row.top() + 1, TimelineMarks::kStrokeWidth, row.height() - 2),
                          stroke.colour);
+}
+
+void TimelineView::paintKinds(QPainter& painter, const QRectF& row) const {
+    for (int i = 0; kinds_shown_ && i < kinds_.rowCount(); ++i) {
+        const double top = row.top() + i * TimelineKinds::kRowStep;
+        painter.fillRect(QRectF(row.left(), top, row.width(), TimelineKinds::kRowHeight),
+                         palette().color(QPalette::Base));
+        const QColor colour = kinds_.colourOf(i, colours_, palette());
+        for (const auto& [from, to] : kinds_.bars(i, axis_))
+            painter.fillRect(QRectF(from, top, to - from, TimelineKinds::kRowHeight), colour);
+    }
 }
 
 void TimelineView::paintWatched(QPainter& painter, const QRectF& row) const {
@@ -397,14 +456,20 @@ QString TimelineView::describeFrame(FrameIndex frame) const {
     return text + tr("\n%1 motion vectors, %2 tracks").arg(done.motion_vectors).arg(done.tracks);
 }
 
+QString TimelineView::tipAt(QPointF place) const {
+    const TimelineMark* mark = markAt(place);
+    if (mark != nullptr && describe_mark_) return describe_mark_(mark->id);
+    if (const auto row = kindRowAt(place)) return kinds_.textAt(*row, place.x(), axis_, kMarkReach);
+    if (isFoldSwitch(place))
+        return kinds_shown_ ? tr("Click to fold away the rows of the kinds of events")
+                            : tr("Click to have a row for each kind of event");
+    return place.x() >= axis_.left() ? describeFrame(axis_.frameAt(place.x())) : QString();
+}
+
 bool TimelineView::event(QEvent* event) {
     if (event->type() == QEvent::ToolTip && axis_.frameCount() > 0) {
         const auto* help = static_cast<QHelpEvent*>(event);
-        const TimelineMark* mark = markAt(help->pos());
-        if (mark != nullptr && describe_mark_)
-            QToolTip::showText(help->globalPos(), describe_mark_(mark->id), this);
-        else if (help->pos().x() >= axis_.left())
-            QToolTip::showText(help->globalPos(), describeFrame(axis_.frameAt(help->pos().x())), this);
+        if (const QString tip = tipAt(help->pos()); !tip.isEmpty()) QToolTip::showText(help->globalPos(), tip, this);
         return true;
     }
     if (event->type() == QEvent::FontChange) layoutAxis();
@@ -413,8 +478,12 @@ bool TimelineView::event(QEvent* event) {
 
 void TimelineView::mousePressEvent(QMouseEvent* event) {
     if (event->button() != Qt::LeftButton || axis_.frameCount() == 0) return;
-    if (const TimelineMark* mark = markAt(event->position())) {
-        emit markClicked(mark->id);
+    if (isFoldSwitch(event->position())) {
+        emit kindsShownWanted(!kinds_shown_);
+        return;
+    }
+    if (const auto id = idAt(event->position())) {
+        emit markClicked(*id);
         return;
     }
     scrubbing_ = true;
