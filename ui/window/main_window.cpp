@@ -67,6 +67,7 @@
 #include "window/window_commands.h"
 #include "workspace/dock_registry.h"
 #include "workspace/timeline_binding.h"
+#include "workspace/timeline_thumbnails.h"
 #include "workspace/window_actions.h"
 #include "workspace/workspaces.h"
 
@@ -120,6 +121,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     tuning_ = new Tuning(
         {session_, *canvas_, *docks_, review_->parameterForm(), *actions_, review_->parameters(), overlays_, *this});
     buildEvaluation();
+    new TimelineThumbnails(session_, *timeline_, this);
     auto* binding = new TimelineBinding(session_, *timeline_, review_->stageTimes(), this);
     binding->setClock([this](FrameIndex frame) { return earth_->earth().clockText(frame); });
     status_ = new StatusFields(session_, *statusBar());

@@ -473,6 +473,7 @@ bool TimelineView::event(QEvent* event) {
         return true;
     }
     if (event->type() == QEvent::FontChange) layoutAxis();
+    if (event->type() == QEvent::Leave || event->type() == QEvent::Hide) emit pointerLeft();
     return QWidget::event(event);
 }
 
@@ -487,11 +488,18 @@ void TimelineView::mousePressEvent(QMouseEvent* event) {
         return;
     }
     scrubbing_ = true;
+    emit pointerLeft();  // the video itself shows what is there
     emit frameRequested(axis_.frameAt(event->position().x()), true);
 }
 
 void TimelineView::mouseMoveEvent(QMouseEvent* event) {
-    if (scrubbing_) emit frameRequested(axis_.frameAt(event->position().x()), true);
+    const double x = event->position().x();
+    if (scrubbing_)
+        emit frameRequested(axis_.frameAt(x), true);
+    else if (axis_.frameCount() > 0 && x >= axis_.left() && x <= axis_.right())
+        emit pointedAt(axis_.frameAt(x), static_cast<int>(x));
+    else
+        emit pointerLeft();
 }
 
 void TimelineView::mouseReleaseEvent(QMouseEvent* event) {

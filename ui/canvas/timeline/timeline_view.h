@@ -80,6 +80,10 @@ class TimelineView : public QWidget {
     /// The user wants to see this frame; `scrubbing` while the mouse is held.
     void frameRequested(FrameIndex frame, bool scrubbing);
     void markClicked(int id);
+    /// The pointer moves over this frame without scrubbing; x in the widget.
+    void pointedAt(FrameIndex frame, int x);
+    /// It is over no frame any more, or scrubs.
+    void pointerLeft();
     /// The user wants to have the rows of kinds, or to fold them away.
     void kindsShownWanted(bool shown);
 
