@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QRectF>
 #include <QWidget>
 #include <functional>
 #include <optional>
@@ -98,7 +99,11 @@ class TimelineView : public QWidget {
     void wheelEvent(QWheelEvent* event) override;
 
  private:
-    struct Rows;
+    static constexpr double kRulerHeight = 22;
+
+    struct Rows {
+        QRectF ruler, quality, marks, kinds, watched, activity, track;
+    };
     Rows rows() const;
     void layoutAxis();
     void paintRuler(QPainter& painter, const QRectF& row) const;
