@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 #include "events/kinds/event_scene.h"
 
@@ -51,8 +52,32 @@ double fastestBefore(const EventScene& scene, const GroundPath& path, std::size_
     return fastest;
 }
 
+namespace {
+
+std::map<TrackId, SpeedRange> speedsOf(const std::vector<GroundPath>& paths) {
+    std::map<TrackId, SpeedRange> speeds;
+    for (const GroundPath& path : paths) {
+        if (!path.measured) continue;
+        for (const GroundSample& sample : path.samples) {
+            const double speed = sample.moving ? sample.speed : 0;
+            const auto [place, is_new] = speeds.try_emplace(path.id(), SpeedRange{speed, speed});
+            if (is_new) continue;
+            place->second.lowest = std::min(place->second.lowest, speed);
+            place->second.highest = std::max(place->second.highest, speed);
+        }
+    }
+    return speeds;
+}
+
+}  // namespace
+
 std::vector<Event> findEvents(const std::vector<EventTrack>& tracks, const Footage& footage,
                               const EventOptions& options, const std::vector<Zone>& zones) {
+    return searchTracks(tracks, footage, options, zones).events;
+}
+
+TrackFindings searchTracks(const std::vector<EventTrack>& tracks, const Footage& footage, const EventOptions& options,
+                           const std::vector<Zone>& zones) {
     const GroundStretches ground(footage);
     const std::vector<GroundPath> paths = groundPaths(tracks, ground, options);
     const EventScene scene{ground, paths, options, footage.scale};
@@ -69,7 +94,7 @@ std::vector<Event> findEvents(const std::vector<EventTrack>& tracks, const Foota
     std::stable_sort(events.begin(), events.end(), [](const Event& a, const Event& b) {
         return std::tie(a.first_frame, a.kind, a.tracks, a.zone) < std::tie(b.first_frame, b.kind, b.tracks, b.zone);
     });
-    return events;
+    return {std::move(events), speedsOf(paths)};
 }
 
 }  // namespace eyrie

@@ -90,6 +90,20 @@ TEST(BorderEvents, NobodyIsLostWhereTheRegistrationBreaks) {
     EXPECT_THAT(findEvents(scene.tracks, footage), IsEmpty());
 }
 
+TEST(TrackSpeeds, TheLowestAndTheHighestAreThoseOfTheDrive) {
+    DrivenTracks scene;
+    scene.drive({20, 60}, 0, kStopAndGo);
+    scene.drive({10, 40}, 0, {{3, 30, 30}, {5, 30, 60}, {2, 60, 60}});
+    scene.drive({10, 20}, 0, {{0.2, 30, 30}});  // too short to tell
+    const TrackFindings found = searchTracks(scene.tracks, scene.footage());
+    EXPECT_EQ(found.events.size(), scene.events().size());
+    ASSERT_EQ(found.speeds.size(), 2U);
+    EXPECT_EQ(found.speeds.at(1).lowest, 0) << "noise is no motion";
+    EXPECT_NEAR(found.speeds.at(1).highest * 3.6, 36, 3);
+    EXPECT_NEAR(found.speeds.at(2).lowest * 3.6, 30, 3);
+    EXPECT_NEAR(found.speeds.at(2).highest * 3.6, 60, 3);
+}
+
 TEST(Standstills, AStopAStandAndAStartAreFoundWhereTheyAre) {
     DrivenTracks scene;
     scene.drive({20, 60}, 0, kStopAndGo);

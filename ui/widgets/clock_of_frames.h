@@ -3,6 +3,7 @@
 #include <QAbstractItemModel>
 #include <QString>
 #include <functional>
+#include <optional>
 
 #include "core/values/ids.h"
 
@@ -16,6 +17,11 @@ struct ClockOfFrames {
     std::function<QString(FrameIndex)> text = [](FrameIndex) { return QString(); };
     /// What that rests on, for people; empty where nobody knows.
     std::function<QString()> origin = [] { return QString(); };
+    /// The first frame taken at a time of the day in UTC (s since midnight) or later; behind the last frame where the
+    /// video ends before it. Nothing where nobody knows.
+    std::function<std::optional<FrameIndex>(double seconds)> frame_of_day = [](double) {
+        return std::optional<FrameIndex>();
+    };
 
     bool known() const { return !origin().isEmpty(); }
     /// The time of the day, or what stands in its place where nobody knows.

@@ -33,6 +33,7 @@
 #include "review/inspector/track_inspector.h"
 #include "review/mosaic/mosaic_panel.h"
 #include "review/mosaic/mosaic_view.h"
+#include "review/tracks/filter_chips.h"
 #include "review/tracks/like_tracks.h"
 #include "review/tracks/tracks_panel.h"
 #include "review/watch/seen_watch.h"
@@ -66,6 +67,7 @@
 #include "window/window_commands.h"
 #include "workspace/dock_registry.h"
 #include "workspace/timeline_binding.h"
+#include "workspace/timeline_thumbnails.h"
 #include "workspace/window_actions.h"
 #include "workspace/workspaces.h"
 
@@ -79,6 +81,7 @@ constexpr int kStyleCache_kB = 2048;
 constexpr int kLeastLabelRows_px = 68;
 constexpr int kMostLabelRows_px = 118;
 const QString kWorkspaces = QStringLiteral("window/workspaces");
+const QString kEventRows = QStringLiteral("window/event_rows");
 const QString kColourBlind = QStringLiteral("window/colour_blind");  ///< of all workspaces: eyes stay the same
 
 }  // namespace
@@ -102,6 +105,10 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     review_ = new ReviewDocks({session_, *inspection_, *measured_, *docks_, *actions_, overlays_, *guard_, *messages_});
     events_ = new EventsDock({session_, *canvas_, *timeline_, *docks_, *actions_, *messages_});
     review_->setDoingsWanted([this] { events_->review().setWanted(); });
+    review_->setQueryChanged([this] {
+        TracksPanel& tracks = review_->tracks();
+        events_->panel().setQuery(tracks.query(), [&tracks] { tracks.chips().clear(); });
+    });
     events_->correcting().setList(review_->tracks());
     docks_->watch(DockId::tracks, &events_->correcting(), [this](bool) { events_->correcting().enableActions(); });
     connect(events_, &EventsDock::eventsShown, this, [this] {
@@ -114,6 +121,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     tuning_ = new Tuning(
         {session_, *canvas_, *docks_, review_->parameterForm(), *actions_, review_->parameters(), overlays_, *this});
     buildEvaluation();
+    new TimelineThumbnails(session_, *timeline_, this);
     auto* binding = new TimelineBinding(session_, *timeline_, review_->stageTimes(), this);
     binding->setClock([this](FrameIndex frame) { return earth_->earth().clockText(frame); });
     status_ = new StatusFields(session_, *statusBar());
@@ -264,6 +272,9 @@ void MainWindow::buildWorkspaces() {
     });
     overlays_.setPalette(settings_.value(kColourBlind, false).toBool() ? PaletteKind::colour_blind
                                                                        : PaletteKind::thesis);
+    bindSwitches(this, {{actions_->event_rows, [this](bool on) { timeline_->setKindsShown(on); }}});
+    connect(timeline_, &TimelineView::kindsShownWanted, actions_->event_rows, &QAction::setChecked);
+    actions_->event_rows->setChecked(settings_.value(kEventRows, true).toBool());
     workspaces_->restore(settings_.value(kWorkspaces, {}).toMap());
 }
 
@@ -446,6 +457,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
     files_->rememberView();
     settings_.setGeometry(saveGeometry());
     settings_.setValue(kColourBlind, overlays_.palette() == PaletteKind::colour_blind);
+    settings_.setValue(kEventRows, timeline_->kindsShown());
     settings_.setValue(kWorkspaces, workspaces_->state());
     session_.stopRun();  // the run's own thread finishes storing while the program goes down
     event->accept();

@@ -155,6 +155,9 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
                   {nullptr,
                    {QKeySequence(tr("Ctrl+Shift+B"))},
                    QT_TR_NOOP("Two runs or sets of parameters on the same frames, side by side or with a wipe")});
+    event_rows =
+        addToggle(tr("Rows of event &kinds in the timeline"),
+                  {nullptr, {}, QT_TR_NOOP("A thin row of the timeline for each kind of event that occurs")}, true);
     full_screen = addToggle(tr("Full screen"), {"view-fullscreen", {QKeySequence(Qt::Key_F11)}}, false);
 
     const QString workspace_names[] = {tr("&Review"), tr("&Label"), tr("&Tune")};

@@ -31,7 +31,7 @@ class WindowActions : public QObject {
     QAction *play, *step_back, *step_on, *jump_back, *jump_on, *first, *last, *go_to_frame, *shuttle_back,
         *shuttle_stop, *shuttle_on, *slower, *faster, *loop, *only_moving;
     QAction *fit, *one_to_one, *zoom_in, *zoom_out, *steady, *follow_object, *measure, *even_picture, *snapshot,
-        *snapshot_plain, *show_mosaic, *full_screen, *deselect;
+        *snapshot_plain, *show_mosaic, *event_rows, *full_screen, *deselect;
     QAction *next_error, *previous_error, *why_error, *wrong_truth, *report;
     QAction *next_event, *previous_event, *next_open_event, *relevant, *not_relevant, *unsure, *take_back, *star, *note,
         *like_track, *add_track, *join_tracks, *split_track, *reject_tracks, *remove_correction, *undo_verdict,

@@ -8,6 +8,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cstdlib>
+#include <set>
 
 #include "canvas/timeline/timeline_view.h"
 #include "canvas/video_view.h"
@@ -284,6 +285,25 @@ class EventsDockTest : public QObject {
         QVERIFY(test::shows(window->session(), frame));
         window->events().panel().kinds().showAll(false);
         QVERIFY(QTest::qWaitFor([&] { return timeline.marks().empty(); }, kPatience_ms));
+    }
+
+    void everyKindThatIsListedHasARowOnTheTimeline() {
+        const auto window = windowWithEvents();
+        QVERIFY(window);
+        const TimelineView& timeline = window->timeline();
+        const FoundEvents& found = *window->events().model().found();
+        std::set<int> kinds;
+        for (std::size_t i = 0; i < found.queue.size(); ++i) kinds.insert(listedKindAt(found, i));
+        QCOMPARE(timeline.kinds().rowCount(), std::min(static_cast<int>(kinds.size()), TimelineKinds::kMostRows));
+        const auto first = timeline.kinds().find(idAt(*window, 0));
+        QVERIFY(first);
+        QCOMPARE(first->second.first, found.framesAt(0).first);
+        QCOMPARE(first->second.last, found.framesAt(0).last);
+        window->events().panel().kinds().showAll(false);
+        QVERIFY(QTest::qWaitFor([&] { return timeline.kinds().empty(); }, kPatience_ms));
+        window->events().panel().kinds().setShown(static_cast<int>(EventKind::over_speed), true);
+        QVERIFY(QTest::qWaitFor([&] { return timeline.kinds().rowCount() == 1; }, kPatience_ms));
+        QCOMPARE(timeline.kinds().nameOf(0), listedKindText(static_cast<int>(EventKind::over_speed)));
     }
 
     void whereKeysAreNotWantedThereAreNoMarks() {

@@ -1,5 +1,7 @@
 #include <QCheckBox>
 #include <QFrame>
+#include <QHeaderView>
+#include <QJsonDocument>
 #include <QJsonObject>
 #include <QLineEdit>
 #include <QTableView>
@@ -93,24 +95,27 @@ class TrackFilterTest : public QObject {
     }
 
  private slots:
-    void init() { home_ = std::make_unique<test::OwnHome>(); }
+    void init() {
+        QLocale::setDefault(QLocale::c());
+        home_ = std::make_unique<test::OwnHome>();
+    }
     void cleanup() { home_.reset(); }
 
     void limitsAreInTheUnitsShownAndIncludeTheirEnds() {
         TrackFilter filter;
         QVERIFY(!filter.any());
-        QVERIFY(filter.holds(trackOf(3), kMetres, nullptr));
+        QVERIFY(filter.holds(trackOf(3), kMetres, {}));
         filter.range(TrackQuality::speed) = {27.0, 45.0};
-        QVERIFY(!filter.holds(trackOf(2), kMetres, nullptr));
-        QVERIFY(filter.holds(trackOf(3), kMetres, nullptr));
-        QVERIFY(filter.holds(trackOf(5), kMetres, nullptr));
-        QVERIFY(!filter.holds(trackOf(6), kMetres, nullptr));
-        QVERIFY2(!filter.holds(trackOf(3), {0.1, 25, false}, nullptr), "3 px/frame");
+        QVERIFY(!filter.holds(trackOf(2), kMetres, {}));
+        QVERIFY(filter.holds(trackOf(3), kMetres, {}));
+        QVERIFY(filter.holds(trackOf(5), kMetres, {}));
+        QVERIFY(!filter.holds(trackOf(6), kMetres, {}));
+        QVERIFY2(!filter.holds(trackOf(3), {0.1, 25, false}, {}), "3 px/frame");
         QCOMPARE(chipText(filter, TrackQuality::speed, kMetres), QStringLiteral("Speed 27–45 km/h"));
         filter.clear(TrackQuality::speed);
         filter.range(TrackQuality::life) = {std::nullopt, 4.0};
-        QVERIFY(filter.holds(trackOf(4), kMetres, nullptr));
-        QVERIFY(!filter.holds(trackOf(5), kMetres, nullptr));
+        QVERIFY(filter.holds(trackOf(4), kMetres, {}));
+        QVERIFY(!filter.holds(trackOf(5), kMetres, {}));
         QCOMPARE(chipText(filter, TrackQuality::life, kMetres), QStringLiteral("Life ≤ 4 s"));
     }
 
@@ -127,19 +132,201 @@ class TrackFilterTest : public QObject {
         QVERIFY2(!doings.contains(3), "what drifts with the picture only stands");
         TrackFilter filter;
         filter.eighths = {0, 1};
-        QVERIFY(filter.holds(trackOf(1), kMetres, &doings));
-        QVERIFY(!filter.holds(trackOf(2), kMetres, &doings));
-        QVERIFY(!filter.holds(trackOf(3), kMetres, &doings));
-        QVERIFY2(filter.holds(trackOf(2), kMetres, nullptr), "nobody knows yet");
+        QVERIFY(filter.holds(trackOf(1), kMetres, {.doings = &doings}));
+        QVERIFY(!filter.holds(trackOf(2), kMetres, {.doings = &doings}));
+        QVERIFY(!filter.holds(trackOf(3), kMetres, {.doings = &doings}));
+        QVERIFY2(filter.holds(trackOf(2), kMetres, {}), "nobody knows yet");
         filter = {};
         filter.events = {EventKind::lost, EventKind::stands};
-        QVERIFY(filter.holds(trackOf(2), kMetres, &doings));
-        QVERIFY(!filter.holds(trackOf(1), kMetres, &doings));
+        QVERIFY(filter.holds(trackOf(2), kMetres, {.doings = &doings}));
+        QVERIFY(!filter.holds(trackOf(1), kMetres, {.doings = &doings}));
         filter = {};
         filter.zones = {"yard"};
-        QVERIFY(filter.holds(trackOf(1), kMetres, &doings));
-        QVERIFY(!filter.holds(trackOf(2), kMetres, &doings));
+        QVERIFY(filter.holds(trackOf(1), kMetres, {.doings = &doings}));
+        QVERIFY(!filter.holds(trackOf(2), kMetres, {.doings = &doings}));
         QCOMPARE(chipText(filter, TrackQuality::zone, kMetres), QStringLiteral("Zone yard"));
+    }
+
+    void aTimeIsAFrameOrATimeOfTheDay() {
+        QCOMPARE(timeLimitOf(QStringLiteral(" 120 ")), std::optional(TimeLimit{120, false}));
+        QCOMPARE(timeLimitOf(QStringLiteral("22:08")), std::optional(TimeLimit{79'680, true}));
+        QCOMPARE(timeLimitOf(QStringLiteral("0:00:07")), std::optional(TimeLimit{7, true}));
+        for (const char* wrong : {"", "noon", "-3", "1.5", "24:00", "12:60", "12:00:60", "12:5", "12:00:"})
+            QVERIFY2(!timeLimitOf(QString::fromLatin1(wrong)), wrong);
+        QCOMPARE(timeLimitText({79'680, true}), QStringLiteral("22:08"));
+        QCOMPARE(timeLimitText({7, true}), QStringLiteral("00:00:07"));
+
+        // Track 1 lies in frames 100 to 124, track 3 in 100 to 174.
+        TrackFilter filter;
+        filter.time = {TimeLimit{125, false}, std::nullopt};
+        QVERIFY(!filter.holds(trackOf(1), kMetres, {}));
+        QVERIFY(filter.holds(trackOf(3), kMetres, {}));
+        QCOMPARE(chipText(filter, TrackQuality::time, kMetres), QStringLiteral("Time ≥ frame 125"));
+        filter.time = {std::nullopt, TimeLimit{99, false}};
+        QVERIFY(!filter.holds(trackOf(3), kMetres, {}));
+        filter.time.to = TimeLimit{100, false};
+        QVERIFY(filter.holds(trackOf(3), kMetres, {}));
+
+        // Begun at 22:08:00; a frame is a second.
+        const TrackFacts clock{.frame_of_day = [](double seconds) {
+            return std::optional<FrameIndex>(static_cast<FrameIndex>(seconds) - 79'680);
+        }};
+        filter.time = {timeLimitOf(QStringLiteral("22:10:05")), timeLimitOf(QStringLiteral("22:20"))};
+        QVERIFY(!filter.holds(trackOf(1), kMetres, clock));
+        QVERIFY(filter.holds(trackOf(3), kMetres, clock));
+        QVERIFY2(filter.holds(trackOf(1), kMetres, {}), "nobody knows the time");
+        QCOMPARE(chipText(filter, TrackQuality::time, kMetres), QStringLiteral("Time 22:10:05–22:20 UTC"));
+        filter.time = {std::nullopt, timeLimitOf(QStringLiteral("22:09:39"))};
+        QVERIFY(!filter.holds(trackOf(1), kMetres, clock));
+        filter.time.to = timeLimitOf(QStringLiteral("22:09:40"));  // shown for all of its second
+        QVERIFY(filter.holds(trackOf(1), kMetres, clock));
+    }
+
+    void statesAreOfTheFrameShownOrOfTheWholeTrack() {
+        const auto at = [](EventKind kind, TrackId track, FrameIndex first, FrameIndex last) {
+            Event event = happening(kind, track);
+            event.first_frame = event.frame = first;
+            event.last_frame = last;
+            return event;
+        };
+        // Track 1 stands until 20 and from 60 to 79; track 2 stands from 50 on; track 3 stands.
+        const DoingsByTrack doings =
+            doingsOf(*threeDriven(), {at(EventKind::stands, 3, 0, 99), at(EventKind::starts, 1, 21, 21),
+                                      at(EventKind::stops, 2, 50, 50), at(EventKind::stops, 1, 60, 60),
+                                      at(EventKind::starts, 1, 80, 80), at(EventKind::lost, 2, 99, 99)});
+        QCOMPARE(doings.at(1).standing, (std::vector<FrameSpan>{{0, 20}, {60, 79}}));
+        QCOMPARE(doings.at(2).standing, (std::vector<FrameSpan>{{50, 99}}));
+        QCOMPARE(doings.at(3).standing, (std::vector<FrameSpan>{{0, 99}}));
+        const auto hundred = [](TrackId id) {
+            TrackSummary track = trackOf(id);
+            track.first_frame = 0;
+            track.last_frame = 99;
+            return track;
+        };
+        const auto those = [&](TrackCondition condition, std::optional<FrameIndex> now) {
+            TrackFilter filter;
+            filter.conditions = {condition};
+            std::vector<int> ids;
+            for (int id = 1; id <= 3; ++id)
+                if (filter.holds(hundred(id), kMetres, {.doings = &doings, .now = now})) ids.push_back(id);
+            return ids;
+        };
+        QCOMPARE(those(TrackCondition::moves_now, 20), std::vector<int>{2});
+        QCOMPARE(those(TrackCondition::moves_now, 21), (std::vector<int>{1, 2}));
+        QCOMPARE(those(TrackCondition::stands_now, 70), (std::vector<int>{1, 2, 3}));
+        QCOMPARE(those(TrackCondition::stands_now, 100), std::vector<int>{});
+        QCOMPARE(those(TrackCondition::moves_now, std::nullopt).size(), std::size_t(3));
+        QCOMPARE(those(TrackCondition::lost, 0), std::vector<int>{2});
+
+        TrackFilter filter;
+        filter.conditions = {TrackCondition::corrected};
+        TrackSummary track = hundred(1);
+        QVERIFY(!filter.holds(track, kMetres, {}));
+        track.corrected = CorrectionKind::join;
+        QVERIFY(filter.holds(track, kMetres, {}));
+        track.corrected = CorrectionKind::reject;
+        QVERIFY(!filter.holds(track, kMetres, {}));
+        filter.conditions.insert(TrackCondition::rejected);
+        QVERIFY(filter.holds(track, kMetres, {}));
+        QCOMPARE(chipText(filter, TrackQuality::state, kMetres), QStringLiteral("State corrected, rejected"));
+    }
+
+    void theLowestAndTheHighestSpeedNarrowAndAreShownWhereTheyAreKnown() {
+        // 36 and 72 km/h; track 3 was seen too shortly.
+        const auto doings =
+            std::make_shared<const DoingsByTrack>(doingsOf(*threeDriven(), {}, {{1, {0, 10}}, {2, {10, 20}}}));
+        TrackFilter filter;
+        filter.range(TrackQuality::highest) = {50, std::nullopt};
+        QVERIFY(!filter.holds(trackOf(1), kMetres, {.doings = doings.get()}));
+        QVERIFY(filter.holds(trackOf(2), kMetres, {.doings = doings.get()}));
+        QVERIFY(!filter.holds(trackOf(3), kMetres, {.doings = doings.get()}));
+        QVERIFY2(filter.holds(trackOf(1), kMetres, {}), "nobody knows yet");
+        QCOMPARE(chipText(filter, TrackQuality::highest, kMetres), QStringLiteral("Highest speed ≥ 50 km/h"));
+        QCOMPARE(TrackFilter::fromJson(filter.json()), filter);
+        filter = {};
+        filter.range(TrackQuality::lowest) = {std::nullopt, 0.0};
+        QVERIFY(filter.holds(trackOf(1), kMetres, {.doings = doings.get()}));
+        QVERIFY(!filter.holds(trackOf(2), kMetres, {.doings = doings.get()}));
+
+        TracksModel model;
+        TracksPanel panel(&model);
+        panel.show();
+        model.setTracks(tenTracks(), kMetres);
+        const auto cell = [&](int row, int column) { return model.index(row, column).data().toString(); };
+        QCOMPARE(cell(1, TracksModel::highest_column), QString());
+        panel.setDoings(doings);
+        QCOMPARE(cell(0, TracksModel::lowest_column), QStringLiteral("0.0"));
+        QCOMPARE(cell(1, TracksModel::lowest_column), QStringLiteral("36.0"));
+        QCOMPARE(cell(1, TracksModel::highest_column), QStringLiteral("72.0"));
+        QCOMPARE(cell(2, TracksModel::highest_column), QString());
+        panel.table()->sortByColumn(TracksModel::highest_column, Qt::DescendingOrder);
+        QCOMPARE(listed(panel).at(0), 2);
+        QCOMPARE(listed(panel).at(1), 1);
+        model.setTracks(tenTracks(), {0.1, 25, false});  // 20 m/s are 8 px a frame there
+        QCOMPARE(cell(1, TracksModel::highest_column), QStringLiteral("8.00"));
+        QCOMPARE(model.headerData(TracksModel::highest_column, Qt::Horizontal, Qt::DisplayRole).toString(),
+                 QStringLiteral("Highest (px/frame)"));
+    }
+
+    void columnsOfExtremesAreHiddenUntilSomebodyShowsThem() {
+        TracksModel model;
+        {
+            TracksPanel panel(&model);
+            model.setTracks(tenTracks(), kMetres);
+            const QHeaderView* header = panel.table()->horizontalHeader();
+            QVERIFY(panel.table()->isColumnHidden(TracksModel::lowest_column));
+            QVERIFY(panel.table()->isColumnHidden(TracksModel::highest_column));
+            QCOMPARE(header->visualIndex(TracksModel::lowest_column),
+                     header->visualIndex(TracksModel::speed_column) + 1);
+            panel.table()->showColumn(TracksModel::highest_column);
+        }
+        const TracksPanel panel(&model);
+        QVERIFY(panel.table()->isColumnHidden(TracksModel::lowest_column));
+        QVERIFY(!panel.table()->isColumnHidden(TracksModel::highest_column));
+    }
+
+    void theListFollowsTheFrameShownWhereAChipAsksForIt() {
+        TracksModel model;
+        TracksPanel panel(&model);
+        panel.show();
+        model.setTracks(tenTracks(), kMetres);  // all begin at 100
+        panel.setShownFrame(0);
+        TrackFilter moving;
+        moving.conditions = {TrackCondition::moves_now};
+        panel.chips().setFilter(moving);
+        QVERIFY(listed(panel).empty());
+        panel.setShownFrame(124 + 8 * 25);
+        QTRY_COMPARE_WITH_TIMEOUT(listed(panel), (std::vector<int>{9, 10}), test::kPatience_ms);
+    }
+
+    void timesOfTheDayCanBeAskedForWhereTheyAreKnown() {
+        TracksModel model;
+        TracksPanel panel(&model);
+        panel.resize(400, 400);
+        panel.show();
+        model.setTracks(tenTracks(), kMetres);
+        QFrame* limits = panel.chips().openLimits(TrackQuality::time);
+        QLineEdit* from = limits->findChildren<QLineEdit*>().front();
+        from->setText(QStringLiteral("22:08"));
+        QVERIFY2(!panel.chips().filter().any(), "nobody knows when it was");
+        from->setText(QStringLiteral("325"));
+        QCOMPARE(listed(panel), (std::vector<int>{10}));
+        limits->close();
+        ClockOfFrames clock;
+        clock.time = [](FrameIndex) { return QStringLiteral("22:08:00"); };
+        clock.origin = [] { return QStringLiteral("the start time given"); };
+        int begin = 79'680;
+        clock.frame_of_day = [&](double seconds) {
+            return std::optional<FrameIndex>(static_cast<FrameIndex>(seconds) - begin);
+        };
+        model.setClock(clock);
+        limits = panel.chips().openLimits(TrackQuality::time);
+        limits->findChildren<QLineEdit*>().front()->setText(QStringLiteral("22:13:00"));  // frame 300
+        limits->close();
+        QCOMPARE(listed(panel), (std::vector<int>{9, 10}));
+        begin += 25;
+        model.setClock(clock);
+        QCOMPARE(listed(panel), (std::vector<int>{8, 9, 10}));
     }
 
     void aFilterIsKeptAsItIs() {
@@ -149,9 +336,23 @@ class TrackFilterTest : public QObject {
         filter.eighths = {0, 7};
         filter.events = {EventKind::lost, EventKind::turns_back};
         filter.zones = {"Höfe", "gate"};
+        filter.time = {TimeLimit{120, false}, TimeLimit{79'687, true}};
+        filter.conditions = {TrackCondition::moves_now, TrackCondition::rejected};
         QCOMPARE(TrackFilter::fromJson(filter.json()), filter);
         QCOMPARE(TrackFilter::fromJson({}), TrackFilter());
         QCOMPARE(TrackFilter::fromJson({{QStringLiteral("direction"), QStringLiteral("up")}}), TrackFilter());
+        QCOMPARE(TrackFilter::fromJson({{QStringLiteral("time"), QStringLiteral("noon")}}), TrackFilter());
+    }
+
+    void whatAnOlderVersionKeptIsUnderstood() {
+        const QByteArray kept =
+            R"({"speed":{"from":20,"to":60.5},"direction":[0,2],"events":["lost"],"zones":["yard"]})";
+        const TrackFilter filter = TrackFilter::fromJson(QJsonDocument::fromJson(kept).object());
+        QCOMPARE(filter.range(TrackQuality::speed), (TrackRange{20, 60.5}));
+        QCOMPARE(filter.eighths, (std::set<int>{0, 2}));
+        QCOMPARE(filter.events, std::set<EventKind>{EventKind::lost});
+        QCOMPARE(filter.zones, std::set<std::string>{"yard"});
+        QVERIFY(!filter.time.any() && filter.conditions.empty());
     }
 
     void chipsNarrowTheListAndCountWhatIsHidden() {

@@ -60,6 +60,22 @@ class EventsWindowTest : public QObject {
         QVERIFY(!window->timeline().marks().empty());
     }
 
+    void rowsOfKindsAreFoldedByACommandAndThatIsKept() {
+        {
+            const auto window = windowWithEvents();
+            QVERIFY(window);
+            QTRY_VERIFY_WITH_TIMEOUT(!window->timeline().kinds().empty(), kPatience_ms);
+            QVERIFY(window->timeline().kindsShown() && window->actions().event_rows->isChecked());
+            emit window->timeline().kindsShownWanted(false);
+            QVERIFY(!window->timeline().kindsShown() && !window->actions().event_rows->isChecked());
+            window->close();
+        }
+        MainWindow window;
+        QVERIFY(!window.timeline().kindsShown());
+        window.actions().event_rows->trigger();
+        QVERIFY(window.timeline().kindsShown());
+    }
+
     void reportsAreWrittenOrSayWhyNot() {
         const auto window = windowWithEvents();
         QVERIFY(window);

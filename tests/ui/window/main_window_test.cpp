@@ -104,7 +104,7 @@ class MainWindowTest : public QObject {
         QCOMPARE(window->timeline().currentFrame(), 29);
         QVERIFY(window->canvas().frame().result);
         QTest::mouseClick(&window->timeline(), Qt::LeftButton, {},
-                          QPoint(static_cast<int>(window->timeline().axis().centreOf(17)), 60));
+                          QPoint(static_cast<int>(window->timeline().axis().centreOf(17)), 10));  // on the ruler
         QVERIFY(showsFrame(*window, 17));
     }
 

@@ -123,6 +123,23 @@ class StartTimeTest : public QObject {
         QVERIFY(tells(*window, QString()));
     }
 
+    void aTimeOfTheDayLeadsToItsFrame() {
+        const auto window = test::windowWithRun();  // of 25 Hz
+        QVERIFY(window);
+        QVERIFY(!earth(*window).frameOfDay(8 * 3600));
+        StartTimeDialog* dialog = ask(*window);
+        QVERIFY(dialog != nullptr);
+        dialog->field().setDateTime(kBegin);  // at 08:00:00
+        QVERIFY(test::press(*dialog, QStringLiteral("OK")));
+        QVERIFY(tells(*window, QStringLiteral("the start time given")));
+        QCOMPARE(earth(*window).frameOfDay(8 * 3600), std::optional(0));
+        QCOMPARE(earth(*window).frameOfDay(8 * 3600 + 1), std::optional(25));
+        QCOMPARE(earth(*window).frameOfDay(8 * 3600 - 60), std::optional(0));
+        const int count = static_cast<int>(window->session().timesUs().size());
+        QCOMPARE(earth(*window).frameOfDay(9 * 3600), std::optional(count));
+        QCOMPARE(earth(*window).frameOfDay(23 * 3600), std::optional(0));  // rather of the evening before
+    }
+
     void whatIsCancelledChangesNothingAndWithoutAVideoNobodyIsAsked() {
         MainWindow bare;
         QVERIFY(!bare.actions().start_time->isEnabled());

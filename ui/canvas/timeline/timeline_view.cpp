@@ -2,7 +2,6 @@
 
 #include <QHelpEvent>
 #include <QMouseEvent>
-#include <QPainter>
 #include <QToolTip>
 #include <QWheelEvent>
 #include <algorithm>
@@ -10,22 +9,18 @@
 
 #include "core/time_text.h"
 #include "core/utc_time.h"
-#include "widgets/theme_colours.h"
 
 namespace eyrie::ui {
 
 namespace {
 constexpr double kRightMargin = 10;
-constexpr double kRulerHeight = 22;
 constexpr double kQualityHeight = 14;
 constexpr double kTrackHeight = 14;
 constexpr double kGap = 6;
 constexpr double kMarkHeight = 12;
 constexpr double kWatchedHeight = 12;  ///< of the row: its name must be read
-constexpr double kWatchedBar = 4;
-constexpr double kMarkReach = 5;  ///< px beside a mark that count as on it
+constexpr double kMarkReach = 5;       ///< px beside a mark that count as on it
 constexpr int kHeight = 104;
-constexpr double kLabelGap = 80;  ///< px from one time on the ruler to the next, at least
 
 /// A moment (µs, not negative) to so many decimals of the seconds, 0 to 6.
 std::int64_t roundedToDecimals(std::int64_t time_us, int decimals) {
@@ -35,10 +30,6 @@ std::int64_t roundedToDecimals(std::int64_t time_us, int decimals) {
 }
 
 }  // namespace
-
-struct TimelineView::Rows {
-    QRectF ruler, quality, marks, watched, activity, track;
-};
 
 TimelineView::TimelineView(QWidget* parent) : QWidget(parent) {
     setMouseTracking(true);
@@ -53,6 +44,7 @@ void TimelineView::setTimes(std::vector<std::int64_t> times_us) {
     track_life_.reset();
     run_range_.reset();
     setMarks({}, {});
+    setKinds({});
     setWatched(std::nullopt);
     seams_ = {};
     axis_.setFrameCount(static_cast<int>(times_us_.size()));
@@ -115,7 +107,47 @@ void TimelineView::setTrackLife(std::optional<std::pair<FrameIndex, FrameIndex>>
 
 int TimelineView::wantedHeight() const {
     return kHeight + (marks_.empty() ? 0 : static_cast<int>(kMarkHeight + kGap - 2)) +
+           (kindsHeight() > 0 ? static_cast<int>(kindsHeight() + kGap - 2) : 0) +
            (watched_ ? static_cast<int>(kWatchedHeight + kGap - 2) : 0);
+}
+
+void TimelineView::setKinds(std::vector<TimelineKind> kinds) {
+    const int height = wantedHeight();
+    kinds_ = TimelineKinds(std::move(kinds));
+    if (wantedHeight() != height) updateGeometry();
+    update();
+}
+
+void TimelineView::setKindsShown(bool shown) {
+    if (shown == kinds_shown_) return;
+    kinds_shown_ = shown;
+    updateGeometry();
+    update();
+}
+
+std::optional<QPointF> TimelineView::placeInKinds(int id) const {
+    const auto found = kinds_.find(id);
+    if (!found || !kinds_shown_) return std::nullopt;
+    const double x = axis_.centreOf(found->second.first);
+    const double y = rows().kinds.top() + found->first * TimelineKinds::kRowStep + TimelineKinds::kRowHeight / 2;
+    return x >= axis_.left() && x <= axis_.right() ? std::optional(QPointF(x, y)) : std::nullopt;
+}
+
+std::optional<int> TimelineView::kindRowAt(QPointF place) const {
+    const QRectF row = rows().kinds;
+    return row.contains(place) ? kinds_.rowAt(place.y() - row.top()) : std::nullopt;
+}
+
+std::optional<int> TimelineView::idAt(QPointF place) const {
+    if (const TimelineMark* mark = markAt(place)) return mark->id;
+    const auto row = kindRowAt(place);
+    return row ? kinds_.nearest(*row, place.x(), axis_, kMarkReach) : std::nullopt;
+}
+
+bool TimelineView::isFoldSwitch(QPointF place) const {
+    const Rows row = rows();
+    return !kinds_.empty() && !marks_.empty() && place.x() < axis_.left() && place.y() >= row.marks.top() &&
+           place.y() <= std::max(row.marks.bottom(), row.kinds.bottom());
 }
 
 void TimelineView::setWatched(std::optional<std::vector<FrameSpan>> spans) {
@@ -195,7 +227,9 @@ TimelineView::Rows TimelineView::rows() const {
     rows.track = QRectF(left, height() - kTrackHeight - 4, width, kTrackHeight);
     const double top = rows.quality.bottom() + (marks_.empty() ? 0 : kGap - 2);
     rows.marks = QRectF(left, top, width, marks_.empty() ? 0 : kMarkHeight);
-    rows.watched = QRectF(left, rows.marks.bottom() + (watched_ ? kGap - 2 : 0), width, watched_ ? kWatchedHeight : 0);
+    const double kinds = kindsHeight();
+    rows.kinds = QRectF(left, rows.marks.bottom() + (kinds > 0 ? kGap - 2 : 0), width, kinds);
+    rows.watched = QRectF(left, rows.kinds.bottom() + (watched_ ? kGap - 2 : 0), width, watched_ ? kWatchedHeight : 0);
     const double below = rows.watched.bottom() + kGap;
     rows.activity = QRectF(left, below, width, rows.track.top() - kGap - below);
     return rows;
@@ -203,170 +237,6 @@ TimelineView::Rows TimelineView::rows() const {
 
 void TimelineView::resizeEvent(QResizeEvent*) {
     layoutAxis();
-}
-
-void TimelineView::paintEvent(QPaintEvent*) {
-    QPainter painter(this);
-    painter.fillRect(rect(), palette().window());
-    if (axis_.frameCount() == 0) return;
-    const Rows row = rows();
-    painter.setPen(palette().color(QPalette::PlaceholderText));
-    const auto name = [&](const QRectF& beside, const QString& text) {
-        painter.drawText(QRectF(8, beside.top(), axis_.left() - 16, beside.height()), Qt::AlignVCenter | Qt::AlignRight,
-                         fontMetrics().elidedText(text, Qt::ElideRight, static_cast<int>(axis_.left()) - 16));
-    };
-    name(row.ruler, utc_at_ ? tr("Time (UTC)") : tr("Time"));
-    name(row.quality, tr("Registration"));
-    if (!marks_.empty()) name(row.marks, marks_name_);
-    if (watched_) name(row.watched, tr("Watched"));
-    if (frames_.empty()) {
-        name(row.activity, tr("Activity"));
-    } else {
-        // Name, colour and height of both curves.
-        const TimelineActivity curves = activity();
-        const double half = row.activity.height() / 2;
-        painter.setPen(curves.trackColour());
-        name(row.activity.adjusted(0, 0, 0, -half), tr("tracks (max %1)").arg(curves.mostTracks()));
-        painter.setPen(curves.vectorColour());
-        name(row.activity.adjusted(0, half, 0, 0), tr("vectors (max %1)").arg(curves.mostVectors()));
-        painter.setPen(palette().color(QPalette::PlaceholderText));
-    }
-    name(row.track, track_life_ ? track_name_ : tr("Selected"));
-    paintRuler(painter, row.ruler);
-    painter.save();
-    painter.setClipRect(QRectF(axis_.left() - 1, 0, axis_.right() - axis_.left() + 2, height()));
-    paintQuality(painter, row.quality);
-    paintMarks(painter, row.marks);
-    paintWatched(painter, row.watched);
-    activity().paint(painter, row.activity, axis_);
-    paintTrackLife(painter, row.track);
-    paintSeams(painter);
-    painter.restore();
-    paintCursor(painter);
-}
-
-void TimelineView::paintRuler(QPainter& painter, const QRectF& row) const {
-    // Round times of the day, as they are where the view begins.
-    const std::int64_t begin_us = times_us_[static_cast<size_t>(axis_.firstVisible())];
-    const auto begin_utc_us = utc_at_ ? utc_at_(begin_us) : std::nullopt;
-    const auto ticks = axis_.ticks(times_us_, kLabelGap, begin_utc_us.value_or(begin_us) - begin_us);
-    const QColor text = palette().color(QPalette::WindowText);
-    QColor faint = text;
-    faint.setAlphaF(0.35F);
-    std::int64_t step = 1'000'000;
-    std::int64_t previous = -1;
-    for (const TimelineTick& tick : ticks) {
-        if (!tick.labelled) continue;
-        if (previous >= 0) step = std::min(step, tick.time_us - previous);
-        previous = tick.time_us;
-    }
-    const int decimals = step >= 1'000'000 ? 0 : step >= 100'000 ? 1 : 2;
-    for (const TimelineTick& tick : ticks) {
-        const double x = std::floor(tick.x) + 0.5;
-        painter.setPen(faint);
-        painter.drawLine(QLineF(x, row.bottom() - (tick.labelled ? 7 : 3), x, row.bottom()));
-        if (!tick.labelled) continue;
-        const QString label = rulerText(tick.time_us, decimals);
-        const double label_width = fontMetrics().horizontalAdvance(label);
-        if (x + 3 + label_width > row.right()) continue;
-        painter.setPen(text);
-        painter.drawText(QPointF(x + 3, row.bottom() - 6), label);
-    }
-}
-
-void TimelineView::paintQuality(QPainter& painter, const QRectF& row) const {
-    painter.fillRect(row, palette().color(QPalette::Base));
-    if (run_range_) {
-        const double from = axis_.xOf(run_range_->first);
-        const double to = axis_.xOf(run_range_->second + 1);
-        painter.fillRect(QRectF(from, row.top(), to - from, row.height()),
-                         QBrush(palette().color(QPalette::Mid), Qt::BDiagPattern));
-    }
-    // One bar per frame, or per screen column with the worst frame in it. Its height says how many corners agree.
-    const FrameIndex last = std::min(axis_.lastVisible(), static_cast<FrameIndex>(frames_.size()) - 1);
-    FrameIndex frame = axis_.firstVisible();
-    while (frame <= last) {
-        const double left = std::floor(axis_.xOf(frame));
-        FrameIndex end = frame + 1;
-        while (end <= last && std::floor(axis_.xOf(end)) <= left) ++end;
-        const TimelineFrame* worst = nullptr;
-        for (FrameIndex f = frame; f < end; ++f) {
-            const TimelineFrame& candidate = frames_[static_cast<size_t>(f)];
-            if (candidate.done && (worst == nullptr || badness(candidate) > badness(*worst))) worst = &candidate;
-        }
-        if (worst != nullptr) {
-            const double right = std::floor(axis_.xOf(end));
-            const double gap = axis_.pixelsPerFrame() > 6 ? 1 : 0;
-            const bool measured = worst->state == RegistrationState::registered && worst->corners > 0;
-            const double share =
-                measured ? std::clamp(worst->inliers / static_cast<double>(worst->corners), 0.25, 1.0) : 1;
-            const double height = std::round(row.height() * share);
-            painter.fillRect(QRectF(left, row.bottom() - height, std::max(1.0, right - left - gap), height),
-                             qualityColour(*worst));
-        }
-        frame = end;
-    }
-}
-
-void TimelineView::paintMarks(QPainter& painter, const QRectF& row) const {
-    if (marks_.empty()) return;
-    painter.fillRect(row, palette().color(QPalette::Base));
-    for (const TimelineMarks::Stroke& stroke : marks_.strokes(axis_))
-        painter.fillRect(QRectF(stroke.x - 1, row.top() + 1, TimelineMarks::kStrokeWidth, row.height() - 2),
-                         stroke.colour);
-}
-
-void TimelineView::paintWatched(QPainter& painter, const QRectF& row) const {
-    if (!watched_) return;
-    const QRectF bar(row.left(), row.center().y() - kWatchedBar / 2, row.width(), kWatchedBar);
-    painter.fillRect(bar, palette().color(QPalette::Base));
-    const QColor colour = blend(palette().color(QPalette::WindowText), palette().color(QPalette::Base), 0.4);
-    for (const FrameSpan& span : *watched_) {
-        if (span.last < axis_.firstVisible() || span.first > axis_.lastVisible()) continue;
-        const double from = axis_.xOf(span.first);
-        painter.fillRect(QRectF(from, bar.top(), std::max(1.0, axis_.xOf(span.last + 1) - from), bar.height()), colour);
-    }
-}
-
-void TimelineView::paintTrackLife(QPainter& painter, const QRectF& row) const {
-    painter.fillRect(row, palette().color(QPalette::Base));
-    if (!track_life_) return;
-    const double from = axis_.xOf(track_life_->first);
-    const double to = axis_.xOf(track_life_->second + 1);
-    painter.setRenderHint(QPainter::Antialiasing);
-    painter.setPen(Qt::NoPen);
-    painter.setBrush(blend(colours_.track, palette().color(QPalette::Base), 0.25));
-    painter.drawRoundedRect(QRectF(from, row.top() + 2, std::max(2.0, to - from), row.height() - 4), 3, 3);
-    painter.setBrush(Qt::NoBrush);
-    painter.setRenderHint(QPainter::Antialiasing, false);
-}
-
-void TimelineView::paintSeams(QPainter& painter) const {
-    QPen pen(palette().color(QPalette::WindowText), 1);
-    pen.setDashPattern({3, 3});
-    painter.setPen(pen);
-    for (const double x : seams_.places(axis_)) painter.drawLine(QLineF(x, kRulerHeight - 7, x, height() - 2));
-}
-
-void TimelineView::paintCursor(QPainter& painter) const {
-    const double x = std::floor(axis_.centreOf(current_)) + 0.5;
-    if (x < axis_.left() - 1 || x > axis_.right() + 1) return;
-    const QColor colour = palette().color(QPalette::Highlight);
-    if (axis_.pixelsPerFrame() > 3) {
-        QColor cell = colour;
-        cell.setAlphaF(0.25F);
-        painter.fillRect(QRectF(axis_.xOf(current_), kRulerHeight, axis_.pixelsPerFrame(), height() - kRulerHeight),
-                         cell);
-    }
-    painter.setPen(QPen(colour, 1));
-    painter.drawLine(QLineF(x, kRulerHeight - 4, x, height()));
-    painter.setRenderHint(QPainter::Antialiasing);
-    painter.setPen(Qt::NoPen);
-    painter.setBrush(colour);
-    painter.drawPolygon(
-        QPolygonF({QPointF(x - 5, kRulerHeight - 9), QPointF(x + 5, kRulerHeight - 9), QPointF(x + 5, kRulerHeight - 5),
-                   QPointF(x, kRulerHeight), QPointF(x - 5, kRulerHeight - 5)}));
-    painter.setRenderHint(QPainter::Antialiasing, false);
 }
 
 QString TimelineView::describeFrame(FrameIndex frame) const {
@@ -397,32 +267,50 @@ QString TimelineView::describeFrame(FrameIndex frame) const {
     return text + tr("\n%1 motion vectors, %2 tracks").arg(done.motion_vectors).arg(done.tracks);
 }
 
+QString TimelineView::tipAt(QPointF place) const {
+    const TimelineMark* mark = markAt(place);
+    if (mark != nullptr && describe_mark_) return describe_mark_(mark->id);
+    if (const auto row = kindRowAt(place)) return kinds_.textAt(*row, place.x(), axis_, kMarkReach);
+    if (isFoldSwitch(place))
+        return kinds_shown_ ? tr("Click to fold away the rows of the kinds of events")
+                            : tr("Click to have a row for each kind of event");
+    return place.x() >= axis_.left() ? describeFrame(axis_.frameAt(place.x())) : QString();
+}
+
 bool TimelineView::event(QEvent* event) {
     if (event->type() == QEvent::ToolTip && axis_.frameCount() > 0) {
         const auto* help = static_cast<QHelpEvent*>(event);
-        const TimelineMark* mark = markAt(help->pos());
-        if (mark != nullptr && describe_mark_)
-            QToolTip::showText(help->globalPos(), describe_mark_(mark->id), this);
-        else if (help->pos().x() >= axis_.left())
-            QToolTip::showText(help->globalPos(), describeFrame(axis_.frameAt(help->pos().x())), this);
+        if (const QString tip = tipAt(help->pos()); !tip.isEmpty()) QToolTip::showText(help->globalPos(), tip, this);
         return true;
     }
     if (event->type() == QEvent::FontChange) layoutAxis();
+    if (event->type() == QEvent::Leave || event->type() == QEvent::Hide) emit pointerLeft();
     return QWidget::event(event);
 }
 
 void TimelineView::mousePressEvent(QMouseEvent* event) {
     if (event->button() != Qt::LeftButton || axis_.frameCount() == 0) return;
-    if (const TimelineMark* mark = markAt(event->position())) {
-        emit markClicked(mark->id);
+    if (isFoldSwitch(event->position())) {
+        emit kindsShownWanted(!kinds_shown_);
+        return;
+    }
+    if (const auto id = idAt(event->position())) {
+        emit markClicked(*id);
         return;
     }
     scrubbing_ = true;
+    emit pointerLeft();  // the video itself shows what is there
     emit frameRequested(axis_.frameAt(event->position().x()), true);
 }
 
 void TimelineView::mouseMoveEvent(QMouseEvent* event) {
-    if (scrubbing_) emit frameRequested(axis_.frameAt(event->position().x()), true);
+    const double x = event->position().x();
+    if (scrubbing_)
+        emit frameRequested(axis_.frameAt(x), true);
+    else if (axis_.frameCount() > 0 && x >= axis_.left() && x <= axis_.right())
+        emit pointedAt(axis_.frameAt(x), static_cast<int>(x));
+    else
+        emit pointerLeft();
 }
 
 void TimelineView::mouseReleaseEvent(QMouseEvent* event) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QRectF>
 #include <QWidget>
 #include <functional>
 #include <optional>
@@ -10,14 +11,16 @@
 #include "canvas/timeline/timeline_activity.h"
 #include "canvas/timeline/timeline_axis.h"
 #include "canvas/timeline/timeline_frame.h"
+#include "canvas/timeline/timeline_kinds.h"
 #include "canvas/timeline/timeline_marks.h"
 #include "canvas/timeline/timeline_seams.h"
 #include "core/review/seen_frames.h"
 
 namespace eyrie::ui {
 
-/// Ruler with the video's own times, where its parts meet, registration quality, activity, the life of the selected
-/// track and the place shown. Clicking and dragging scrub; the wheel zooms; arrow keys are left to the window.
+/// Ruler with the video's own times, where its parts meet, registration quality, what happened by kinds, activity, the
+/// life of the selected track and the place shown. Clicking and dragging scrub; the wheel zooms; arrow keys are left to
+/// the window.
 class TimelineView : public QWidget {
     Q_OBJECT
 
@@ -52,6 +55,14 @@ class TimelineView : public QWidget {
     const TimelineMarks& marks() const { return marks_; }
     /// Where a mark is drawn; nothing when it is out of view.
     std::optional<QPointF> placeOfMark(int id) const;
+    /// A thin row for each kind of what happened, below the marks; ids are those of marks.
+    void setKinds(std::vector<TimelineKind> kinds);
+    const TimelineKinds& kinds() const { return kinds_; }
+    /// Whether these rows are there, or folded away.
+    void setKindsShown(bool shown);
+    bool kindsShown() const { return kinds_shown_; }
+    /// Where one of them is drawn; nothing when it is out of view, or the rows are folded.
+    std::optional<QPointF> placeInKinds(int id) const;
     /// What anybody watched, merged spans, in a thin row of its own, which is there while that is known.
     void setWatched(std::optional<std::vector<FrameSpan>> spans);
     const std::optional<std::vector<FrameSpan>>& watched() const { return watched_; }
@@ -70,6 +81,12 @@ class TimelineView : public QWidget {
     /// The user wants to see this frame; `scrubbing` while the mouse is held.
     void frameRequested(FrameIndex frame, bool scrubbing);
     void markClicked(int id);
+    /// The pointer moves over this frame without scrubbing; x in the widget.
+    void pointedAt(FrameIndex frame, int x);
+    /// It is over no frame any more, or scrubs.
+    void pointerLeft();
+    /// The user wants to have the rows of kinds, or to fold them away.
+    void kindsShownWanted(bool shown);
 
  protected:
     bool event(QEvent* event) override;
@@ -82,15 +99,29 @@ class TimelineView : public QWidget {
     void wheelEvent(QWheelEvent* event) override;
 
  private:
-    struct Rows;
+    static constexpr double kRulerHeight = 22;
+
+    struct Rows {
+        QRectF ruler, quality, marks, kinds, watched, activity, track;
+    };
     Rows rows() const;
     void layoutAxis();
     void paintRuler(QPainter& painter, const QRectF& row) const;
     int wantedHeight() const;
     void paintQuality(QPainter& painter, const QRectF& row) const;
     void paintMarks(QPainter& painter, const QRectF& row) const;
+    void paintKinds(QPainter& painter, const QRectF& row) const;
     void paintWatched(QPainter& painter, const QRectF& row) const;
     bool isWatched(FrameIndex frame) const;
+    double kindsHeight() const { return kinds_shown_ ? kinds_.height() : 0; }
+    /// The row of kinds under a place of the widget.
+    std::optional<int> kindRowAt(QPointF place) const;
+    /// What a click on a place of the widget means, if it means a mark or something that happened.
+    std::optional<int> idAt(QPointF place) const;
+    /// Whether a place of the widget is the switch that folds the rows of kinds.
+    bool isFoldSwitch(QPointF place) const;
+    /// What is to be said of a place of the widget.
+    QString tipAt(QPointF place) const;
     /// The mark under a place of the widget.
     const TimelineMark* markAt(QPointF place) const;
     void paintTrackLife(QPainter& painter, const QRectF& row) const;
@@ -108,6 +139,8 @@ class TimelineView : public QWidget {
     QString track_name_;
     QString marks_name_;
     TimelineMarks marks_;
+    TimelineKinds kinds_;
+    bool kinds_shown_ = true;
     std::function<QString(int id)> describe_mark_;
     std::optional<std::vector<FrameSpan>> watched_;
     TimelineSeams seams_;

@@ -126,7 +126,25 @@ ClockOfFrames VideoEarth::clock() const {
                     return utc_us ? QString::fromStdString(timeOfDayText(*utc_us)) : QString();
                 },
             .text = [this](FrameIndex frame) { return clockText(frame); },
-            .origin = [this] { return clockOrigin(); }};
+            .origin = [this] { return clockOrigin(); },
+            .frame_of_day = [this](double seconds) { return frameOfDay(seconds); }};
+}
+
+std::optional<FrameIndex> VideoEarth::frameOfDay(double seconds) const {
+    constexpr std::int64_t kDay_us = 86'400'000'000;
+    const auto& times = session_.timesUs();
+    if (times.empty()) return std::nullopt;
+    const auto begin = clock_.at(times.front()), end = clock_.at(times.back());
+    if (!begin || !end) return std::nullopt;
+    // Of the days that the video touches; of one that it does not, the time that is nearer to it.
+    std::int64_t wanted = *begin - *begin % kDay_us + std::llround(seconds * 1e6);
+    if (wanted < *begin && wanted + kDay_us - *end < *begin - wanted) wanted += kDay_us;
+    if (wanted > *end && *begin - (wanted - kDay_us) < wanted - *end) wanted -= kDay_us;
+    const auto place = std::partition_point(times.begin(), times.end(), [&](std::int64_t video_us) {
+        const auto utc_us = clock_.at(video_us);
+        return utc_us && *utc_us < wanted;
+    });
+    return static_cast<FrameIndex>(place - times.begin());
 }
 
 QString VideoEarth::clockText(FrameIndex frame) const {

@@ -235,6 +235,7 @@ void EventsDock::showVerdicts(const std::vector<std::size_t>& positions) {
 void EventsDock::showMarks() {
     marks_due_.stop();
     std::vector<TimelineMark> marks;
+    std::vector<TimelineKind> kinds(kListedKinds);
     const auto& found = model_->found();
     const bool dark = isDark(parts_.timeline.palette());
     for (int row = 0; active_ && found && row < model_->rowCount(); ++row) {
@@ -242,7 +243,15 @@ void EventsDock::showMarks() {
         if (!panel_->isListed(entry)) continue;
         marks.push_back({entry.id, found->frameAt(entry.position), judgementColour(entry.judgement, dark),
                          weightOf(entry.judgement)});
+        const FrameSpan frames = found->framesAt(entry.position);
+        kinds[static_cast<std::size_t>(listedKindAt(*found, entry.position))].happenings.push_back(
+            {entry.id, frames.first, frames.last});
     }
+    for (int kind = 0; kind < kListedKinds; ++kind) {
+        kinds[static_cast<std::size_t>(kind)].name = listedKindText(kind);
+        kinds[static_cast<std::size_t>(kind)].colour = kind;
+    }
+    parts_.timeline.setKinds(std::move(kinds));
     if (active_)
         for (TimelineMark& mark : bookmarks_->marks(dark)) marks.push_back(std::move(mark));
     parts_.timeline.setMarks(tr("Events"), std::move(marks), [this](int id) { return markText(id); });

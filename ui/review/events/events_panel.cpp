@@ -11,6 +11,7 @@
 #include <QVBoxLayout>
 
 #include "review/events/event_thresholds.h"
+#include "review/tracks/track_query.h"
 #include "widgets/layout/flow_layout.h"
 #include "widgets/tables/table_roles.h"
 #include "widgets/theme_colours.h"
@@ -133,6 +134,25 @@ void EventsPanel::showZones(bool shown) {
 // ---- filtering ------------------------------------------------------------------------------------------------------
 
 bool EventsPanel::isListed(const EventEntry& entry) const {
+    return isWanted(entry) && passesQuery(entry);
+}
+
+bool EventsPanel::passesQuery(const EventEntry& entry) const {
+    const auto& found = events_->found();
+    if (query_ == nullptr || !found || entry.position >= found->queue.size()) return true;
+    static const std::vector<TrackId> none;  // nobody knows what was there
+    const Event* event = found->eventAt(entry.position);
+    return query_->passes(event != nullptr ? event->tracks : none, found->framesAt(entry.position),
+                          found->frameAt(entry.position));
+}
+
+void EventsPanel::setQuery(std::shared_ptr<const TrackQuery> query, std::function<void()> clear) {
+    query_ = std::move(query);
+    clear_query_ = std::move(clear);
+    filterEvents();
+}
+
+bool EventsPanel::isWanted(const EventEntry& entry) const {
     const auto& found = events_->found();
     if (!found || entry.position >= found->queue.size() || !kinds_->shows(listedKindAt(*found, entry.position)))
         return false;
@@ -165,6 +185,11 @@ void EventsPanel::filterEvents() {
 }
 
 QString EventsPanel::hiddenText() const {
+    if (query_ != nullptr)
+        return events_->rowCount() == 1
+                   ? tr("The only event is hidden by the kinds and verdicts chosen above, or by the filter on tracks.")
+                   : tr("All %1 events are hidden by the kinds and verdicts chosen above, or by the filter on tracks.")
+                         .arg(events_->rowCount());
     return events_->rowCount() == 1
                ? tr("The only event is hidden by the kinds and verdicts chosen above.")
                : tr("All %1 events are hidden by the kinds and verdicts chosen above.").arg(events_->rowCount());
@@ -173,6 +198,8 @@ QString EventsPanel::hiddenText() const {
 void EventsPanel::showHidden() {
     verdicts_->setCurrentIndex(kAllVerdicts);
     kinds_->showAll();
+    const auto clear = clear_query_;  // it brings another
+    if (query_ != nullptr) clear();
 }
 
 // ---- counting -------------------------------------------------------------------------------------------------------
@@ -198,15 +225,20 @@ QString EventsPanel::countedText() const {
     const int all = events_->rowCount();
     int judged = 0;
     int listed = 0;
+    int hidden_by_query = 0;
     for (int row = 0; row < all; ++row) {
         const EventEntry& entry = *events_->recordAt(row);
         judged += entry.judgement != Judgement::open ? 1 : 0;
-        listed += isListed(entry) ? 1 : 0;
+        if (!isWanted(entry)) continue;
+        const bool passes = passesQuery(entry);
+        listed += passes ? 1 : 0;
+        hidden_by_query += passes ? 0 : 1;
     }
     if (all == 0) return {};
     QString text = tr("%1 of %2 judged").arg(judged).arg(all);
     if (seen_) text += tr(" · %1 % of the time seen").arg(static_cast<int>(100 * *seen_));
     if (listed < all) text += tr(" · %1 of %2 shown").arg(listed).arg(all);
+    if (hidden_by_query > 0) text += tr(" · %1 hidden by the filter on tracks").arg(hidden_by_query);
     return text;
 }
 
@@ -236,6 +268,10 @@ void EventsPanel::showHeader() {
     header_->setTextInteractionFlags(left.isEmpty() ? Qt::TextInteractionFlags(Qt::NoTextInteraction)
                                                     : Qt::LinksAccessibleByMouse | Qt::LinksAccessibleByKeyboard);
     QStringList tips;
+    if (query_ != nullptr)
+        tips << tr(
+            "The chips above the list of tracks narrow the events, too: one is listed where one of its tracks "
+            "passes.");
     if (seen_)
         tips << tr(
             "Frames count as seen when they were shown at four times the speed or slower, with the window in front.");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 
 #include "review/events/event_kinds_button.h"
@@ -14,6 +15,7 @@ class QToolButton;
 namespace eyrie::ui {
 
 class EventThresholds;
+class TrackQuery;
 class WindowActions;
 
 /// Which events a report is about.
@@ -48,14 +50,18 @@ class EventsPanel : public TablePanel {
     /// Which verdicts are listed: all, to judge, relevant, not relevant, unsure, starred, with a note.
     QComboBox& verdicts() { return *verdicts_; }
 
+    /// Lists only events whose tracks pass; null: all. `clear` takes the query back.
+    void setQuery(std::shared_ptr<const TrackQuery> query, std::function<void()> clear);
+
     /// Counts kinds and verdicts anew; `left`: verdicts without an event in this run; `corrections`: what could not be
     /// carried over to it of what was done to tracks, for people.
     void showCounts(std::size_t left, const QStringList& corrections = {});
     /// The share of the run's frames that was watched, 0 … 1; nothing: not known.
     void showSeen(std::optional<double> share);
-    /// "214 of 380 judged", "61 % of the time seen", "38 of 380 shown" and what could not be carried over.
+    /// "214 of 380 judged", "61 % of the time seen", "38 of 380 shown", "12 hidden by the filter on tracks" and what
+    /// could not be carried over.
     QString headerText() const;
-    /// Whether an event is listed by kind and verdict; words in the filter line are not asked.
+    /// Whether an event is listed by kind, verdict and the query; words in the filter line are not asked.
     bool isListed(const EventEntry& entry) const;
 
     /// Id of the row `rows` below (above) the current one in the order shown, the first one if none is current;
@@ -87,6 +93,8 @@ class EventsPanel : public TablePanel {
     void buildButtons();
     void filterEvents();
     void showHeader();
+    bool isWanted(const EventEntry& entry) const;
+    bool passesQuery(const EventEntry& entry) const;
     QString countedText() const;
     QString leftText() const;
     /// Row in the order shown, −1 for none.
@@ -96,6 +104,8 @@ class EventsPanel : public TablePanel {
     EventsModel* events_;
     const WindowActions& actions_;
     EventsPanelCommands commands_;
+    std::shared_ptr<const TrackQuery> query_;
+    std::function<void()> clear_query_ = [] {};
     QLabel* header_;
     EventKindsButton* kinds_;
     QComboBox* verdicts_;

@@ -53,9 +53,10 @@ struct FoundEvents {
 std::shared_ptr<const FoundEvents> findAndOrder(const std::shared_ptr<const StoredTracks>& run,
                                                 const EventOptions& options, const std::map<int, Verdict>& verdicts,
                                                 const std::vector<Zone>& zones = {});
-/// The same with events that are known.
+/// The same with events, and how fast the tracks were, that are known.
 std::shared_ptr<const FoundEvents> inOrder(const std::shared_ptr<const StoredTracks>& run, std::vector<Event> events,
-                                           const std::map<int, Verdict>& verdicts, const std::vector<Zone>& zones = {});
+                                           const std::map<int, Verdict>& verdicts, const std::vector<Zone>& zones = {},
+                                           const std::map<TrackId, SpeedRange>& speeds = {});
 
 /// Kinds as they are listed: those of events by their numbers, and behind them what could not be searched.
 inline constexpr int kListedKinds = kEventKinds + 1;

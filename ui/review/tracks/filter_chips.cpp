@@ -51,7 +51,8 @@ void put(std::set<Value>& values, const Value& value, bool in) {
 FilterChips::FilterChips(QWidget* parent) : QWidget(parent), add_(new QToolButton(this)) {
     auto* row = new FlowLayout(this);
     add_->setText(tr("+ Filter"));
-    add_->setToolTip(tr("Narrow the list: speed, life, length, score, direction, events, zones"));
+    add_->setToolTip(tr(
+        "Narrow the list: speed (mean, lowest, highest), life, length, score, direction, events, zones, time, state"));
     add_->setPopupMode(QToolButton::InstantPopup);
     auto* menu = new QMenu(add_);
     connect(menu, &QMenu::aboutToShow, this, [this, menu] {
@@ -172,13 +173,19 @@ QFrame* FilterChips::openLimits(TrackQuality quality) {
         case TrackQuality::zone:
             fillZones(*rows);
             break;
+        case TrackQuality::time:
+            fillTime(*rows);
+            break;
+        case TrackQuality::state:
+            fillStates(*rows);
+            break;
         case TrackQuality::like:
             fillLike(*rows);
             break;
         default:
             fillRange(*rows, quality);
     }
-    if (static_cast<int>(quality) >= kRangedQualities && quality != TrackQuality::like) emit doingsWanted();
+    if (needsDoings(quality)) emit doingsWanted();
     const Chip& chip = chips_.at(static_cast<std::size_t>(quality));
     const QWidget* below = chip.whole->isVisible() ? static_cast<QWidget*>(chip.button) : add_;
     popup_->adjustSize();
@@ -194,20 +201,26 @@ QFrame* FilterChips::openLimits(TrackQuality quality) {
 
 QLineEdit* FilterChips::addField(QHBoxLayout& line, const QString& name, const std::optional<double>& value,
                                  const std::function<void(std::optional<double>)>& take) {
+    return addText(line, name, value ? QString::number(*value, 'g', 6) : QString(), [take](QString text) {
+        bool is_number = false;
+        const double number = text.replace(QLatin1Char(','), QLatin1Char('.')).toDouble(&is_number);
+        const bool good = text.isEmpty() || (is_number && number >= 0);
+        if (good) take(text.isEmpty() ? std::nullopt : std::optional(number));
+        return good;
+    });
+}
+
+QLineEdit* FilterChips::addText(QHBoxLayout& line, const QString& name, const QString& text,
+                                const std::function<bool(const QString&)>& take) {
     auto* edit = new QLineEdit;
     edit->setPlaceholderText(tr("any"));
     edit->setAccessibleName(name);
     edit->setFixedWidth(70);
-    if (value) edit->setText(QString::number(*value, 'g', 6));
+    edit->setText(text);
     onEdited(
         this,
         [edit, take] {
-            const QString text = edit->text().trimmed().replace(QLatin1Char(','), QLatin1Char('.'));
-            bool is_number = false;
-            const double number = text.toDouble(&is_number);
-            const bool good = text.isEmpty() || (is_number && number >= 0);
-            edit->setStyleSheet(good ? QString() : QStringLiteral("color: #d04040"));
-            if (good) take(text.isEmpty() ? std::nullopt : std::optional(number));
+            edit->setStyleSheet(take(edit->text().trimmed()) ? QString() : QStringLiteral("color: #d04040"));
         },
         edit);
     line.addWidget(edit);
@@ -230,6 +243,44 @@ void FilterChips::fillRange(QVBoxLayout& rows, TrackQuality quality) {
     field(tr("to"), range.to, &TrackRange::to);
     line->addWidget(new QLabel(unitOf(quality, scale_)));
     rows.addLayout(line);
+}
+
+void FilterChips::fillTime(QVBoxLayout& rows) {
+    rows.addWidget(new QLabel(QStringLiteral("<b>%1</b>").arg(tr("Tracks that are there at some time"))));
+    auto* line = new QHBoxLayout;
+    const auto field = [&](const QString& words, std::optional<TimeLimit> TimeRange::*limit) {
+        line->addWidget(new QLabel(words));
+        const auto& value = filter_.time.*limit;
+        addText(*line, QStringLiteral("%1 %2").arg(nameOf(TrackQuality::time), words),
+                value ? timeLimitText(*value) : QString(), [this, limit](const QString& text) {
+                    const auto moment = timeLimitOf(text);
+                    if (!text.isEmpty() && (!moment || (moment->of_day && !clock_known_))) return false;
+                    change([&](TrackFilter& filter) { filter.time.*limit = moment; });
+                    return true;
+                });
+    };
+    field(tr("from"), &TimeRange::from);
+    field(tr("to"), &TimeRange::to);
+    rows.addLayout(line);
+    auto* note = new QLabel(clock_known_ ? tr("Frames, or times of the day in UTC: 120, 22:08 or 22:08:22")
+                                         : tr("Frames: when the video was taken is not known"));
+    note->setWordWrap(true);
+    rows.addWidget(note);
+}
+
+void FilterChips::fillStates(QVBoxLayout& rows) {
+    rows.addWidget(new QLabel(QStringLiteral("<b>%1</b>").arg(tr("Tracks of which one of these is true"))));
+    for (int i = 0; i < kTrackConditions; ++i) {
+        const auto condition = static_cast<TrackCondition>(i);
+        auto* box = new QCheckBox(nameOf(condition));
+        box->setChecked(filter_.conditions.contains(condition));
+        bindCommands(this, {{box, [this, condition](bool on) {
+                                 change([&](TrackFilter& filter) { put(filter.conditions, condition, on); });
+                             }}});
+        rows.addWidget(box);
+    }
+    auto* note = new QLabel(tr("Now: in the frame shown"));
+    rows.addWidget(note);
 }
 
 void FilterChips::fillLike(QVBoxLayout& rows) {
@@ -361,8 +412,8 @@ void FilterChips::keepAs(const QString& name) {
 void FilterChips::useKept(const QString& name) {
     const QString text = QSettings().value(kKeptFilters).toMap().value(name).toString();
     setFilter(TrackFilter::fromJson(QJsonDocument::fromJson(text.toUtf8()).object()));
-    for (int i = kRangedQualities; i < kTrackQualities; ++i)
-        if (filter_.has(static_cast<TrackQuality>(i))) return emit doingsWanted();
+    for (const TrackQuality quality : allQualities())
+        if (needsDoings(quality) && filter_.has(quality)) return emit doingsWanted();
 }
 
 void FilterChips::forgetKept(const QString& name) {

@@ -33,6 +33,8 @@ class FilterChips : public QWidget {
     void setLikeWaiting(const QString& why);
     /// The units of the limits.
     void setScale(const SceneScale& scale);
+    /// Whether times of the day are known, so that one may be asked for.
+    void setClockKnown(bool known) { clock_known_ = known; }
     /// What there is to choose from; null while nobody knows.
     void setDoings(std::shared_ptr<const DoingsByTrack> doings);
 
@@ -63,6 +65,11 @@ class FilterChips : public QWidget {
     void fillZones(QVBoxLayout& rows);
     void fillLike(QVBoxLayout& rows);
     void addLikeSwitches(QVBoxLayout& rows);
+    void fillTime(QVBoxLayout& rows);
+    void fillStates(QVBoxLayout& rows);
+    /// A field for a text; `take` answers whether it understands what it is given.
+    QLineEdit* addText(QHBoxLayout& line, const QString& name, const QString& text,
+                       const std::function<bool(const QString&)>& take);
     /// A field for a number that may be missing, and must not be negative.
     QLineEdit* addField(QHBoxLayout& line, const QString& name, const std::optional<double>& value,
                         const std::function<void(std::optional<double>)>& take);
@@ -72,6 +79,7 @@ class FilterChips : public QWidget {
 
     TrackFilter filter_;
     QString like_waits_;
+    bool clock_known_ = false;
     SceneScale scale_;
     std::shared_ptr<const DoingsByTrack> doings_;
     QToolButton* add_;

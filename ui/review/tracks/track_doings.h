@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "core/review/seen_frames.h"
 #include "events/event.h"
+#include "events/event_search.h"
 #include "events/stored_events.h"
 
 namespace eyrie::ui {
@@ -21,12 +23,20 @@ int eighthOf(double heading);
 struct TrackDoings {
     std::optional<int> eighth;  ///< nothing: it went nowhere
     std::set<EventKind> events;
-    std::set<std::string> zones;  ///< that it entered, left or crossed
+    std::set<std::string> zones;       ///< that it entered, left or crossed
+    std::vector<FrameSpan> standing;   ///< when it stood, merged
+    std::optional<SpeedRange> speeds;  ///< nothing: it was followed too shortly to tell
 };
 /// By track; tracks that are missing did nothing.
 using DoingsByTrack = std::map<TrackId, TrackDoings>;
+/// What a track did; nothing where that is not known (null) or it did nothing. Valid as long as the doings.
+const TrackDoings& doingsIn(const DoingsByTrack* doings, TrackId track);
+/// Whether it stood in a frame.
+bool standsIn(const TrackDoings& did, FrameIndex frame);
 
-/// What the tracks of a run did: where they went over the ground, which events they had, which zones they met.
-DoingsByTrack doingsOf(const StoredTracks& run, const std::vector<Event>& events);
+/// What the tracks of a run did: where they went over the ground and how fast, which events they had, which zones they
+/// met.
+DoingsByTrack doingsOf(const StoredTracks& run, const std::vector<Event>& events,
+                       const std::map<TrackId, SpeedRange>& speeds = {});
 
 }  // namespace eyrie::ui

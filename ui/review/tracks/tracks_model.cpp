@@ -22,6 +22,17 @@ void TracksModel::setLikeness(std::shared_ptr<const LikenessByTrack> likeness) {
     if (rowCount() > 0) emit dataChanged(index(0, like_column), index(rowCount() - 1, like_column));
 }
 
+void TracksModel::setDoings(std::shared_ptr<const DoingsByTrack> doings) {
+    if (doings_ == doings) return;
+    doings_ = std::move(doings);
+    if (rowCount() > 0) emit dataChanged(index(0, lowest_column), index(rowCount() - 1, highest_column));
+}
+
+std::optional<double> TracksModel::extremeOf(const TrackSummary& track, int column) const {
+    return valueOf(track, column == lowest_column ? TrackQuality::lowest : TrackQuality::highest, scale_,
+                   doingsIn(doings_.get(), track.id));
+}
+
 void TracksModel::setClock(ClockOfFrames clock) {
     clock_ = std::move(clock);
     tellClockChanged(*this, first_column, last_column);
@@ -90,6 +101,11 @@ QString TracksModel::textOf(const TrackSummary& track, int column) const {
             return shownName(track.track_class);
         case like_column:
             return likeness_ ? numberText(likeness_->of(track.id), 2) : QString();
+        case lowest_column:
+        case highest_column: {
+            const auto speed = extremeOf(track, column);
+            return speed ? numberText(*speed, scale_.gsd_known ? 1 : 2) : QString();
+        }
         default:
             return {};
     }
@@ -116,6 +132,9 @@ QVariant TracksModel::sortValueOf(const TrackSummary& track, int column) const {
         case like_column:
             // Before those that are as like as can be, the one that they are like.
             return !likeness_ ? 0.0 : track.id == likeness_->chosen ? 2.0 : likeness_->of(track.id);
+        case lowest_column:
+        case highest_column:
+            return extremeOf(track, column).value_or(-1);
         default:
             return textOf(track, column);
     }
@@ -149,6 +168,15 @@ QString TracksModel::helpOf(int column) const {
                 "decide it");
         case like_column:
             return tr("Likeness to the chosen track, from 0 to 1, in what its chip says that counts");
+        case lowest_column:
+            return tr("Lowest speed over the ground, in %1, as events measure it: 0 where it stands; empty until "
+                      "events "
+                      "are found, and for tracks followed too shortly to tell")
+                .arg(speedUnit(scale_));
+        case highest_column:
+            return tr("Highest speed over the ground, in %1, as events measure it; empty until events are found, and "
+                      "for tracks followed too shortly to tell")
+                .arg(speedUnit(scale_));
         default:
             return {};
     }
@@ -182,6 +210,10 @@ QVariant TracksModel::headerData(int section, Qt::Orientation orientation, int r
             return tr("Class");
         case like_column:
             return tr("Like");
+        case lowest_column:
+            return tr("Lowest (%1)").arg(speedUnit(scale_));
+        case highest_column:
+            return tr("Highest (%1)").arg(speedUnit(scale_));
         default:
             return {};
     }

@@ -32,7 +32,9 @@ class TracksModel : public RecordModel<TrackSummary> {
         status_column,
         score_column,
         class_column,
-        like_column,  ///< empty unless setLikeness()
+        like_column,    ///< empty unless setLikeness()
+        lowest_column,  ///< empty until setDoings(), as the next
+        highest_column,
         column_count
     };
 
@@ -41,9 +43,15 @@ class TracksModel : public RecordModel<TrackSummary> {
     void setTracks(std::vector<TrackSummary> tracks, const SceneScale& scale);
     /// How like the tracks are to one of them; null: nobody asked, or it is not known yet.
     void setLikeness(std::shared_ptr<const LikenessByTrack> likeness);
+    /// What the tracks did, for how fast they were; null while nobody knows.
+    void setDoings(std::shared_ptr<const DoingsByTrack> doings);
     /// Times of the day instead of numbers of frames, where they are known. To be given again when they are others.
     void setClock(ClockOfFrames clock);
+    const ClockOfFrames& clock() const { return clock_; }
     const SceneScale& scale() const { return scale_; }
+
+    /// All, ascending id.
+    const std::vector<TrackSummary>& tracks() const { return records(); }
 
     int columnCount(const QModelIndex& parent = {}) const override { return parent.isValid() ? 0 : column_count; }
     QVariant data(const QModelIndex& index, int role) const override;
@@ -54,10 +62,13 @@ class TracksModel : public RecordModel<TrackSummary> {
     QString tipOf(const TrackSummary& track) const;
     /// What a column holds, for its title's tooltip.
     QString helpOf(int column) const;
+    /// In the unit shown; nothing where it is not known.
+    std::optional<double> extremeOf(const TrackSummary& track, int column) const;
     QVariant sortValueOf(const TrackSummary& track, int column) const;
     double secondsOf(const TrackSummary& track) const;
     SceneScale scale_;
     std::shared_ptr<const LikenessByTrack> likeness_;
+    std::shared_ptr<const DoingsByTrack> doings_;
     ClockOfFrames clock_;
 };
 

@@ -17,13 +17,20 @@
 
 namespace eyrie::ui {
 
+namespace {
+
+constexpr int kFollowNow_ms = 200;
+
+}  // namespace
+
 TracksPanel::TracksPanel(TracksModel* model, QWidget* parent)
     : TablePanel(model, QStringLiteral("tracks"), parent),
       tracks_(model),
       tentative_(new QToolButton(this)),
       sensitivity_(new QSlider(Qt::Horizontal, this)),
       count_(new QLabel(this)),
-      chips_(new FilterChips(this)) {
+      chips_(new FilterChips(this)),
+      now_due_(kFollowNow_ms, [this] { filterTracks(); }) {
     table()->setAccessibleName(tr("Tracks"));
     emptyState()->setTexts(
         tr("The tracks of a run are listed here: one row for each moving vehicle, with its life, speed and size."));
@@ -52,12 +59,20 @@ TracksPanel::TracksPanel(TracksModel* model, QWidget* parent)
     connect(chips_, &FilterChips::doingsWanted, this, [this] { commands_.want_doings(); });
     onEdited(this, &TracksPanel::useSensitivity, sensitivity_);
     whenAny(
-        model, this, [this] { chips_->setScale(tracks_->scale()); }, &QAbstractItemModel::modelReset,
-        &QAbstractItemModel::rowsInserted, &QAbstractItemModel::headerDataChanged);
+        model, this,
+        [this] {
+            chips_->setScale(tracks_->scale());
+            chips_->setClockKnown(tracks_->clock().known());
+            if (chips_->filter().time.ofDay()) filterTracks();  // maybe by another clock
+        },
+        &QAbstractItemModel::modelReset, &QAbstractItemModel::rowsInserted, &QAbstractItemModel::headerDataChanged);
+    whenAny(model, this, &TracksPanel::tellQuery, &QAbstractItemModel::modelReset, &QAbstractItemModel::rowsInserted,
+            &QAbstractItemModel::rowsRemoved, &QAbstractItemModel::dataChanged);
     whenAny(model, this, &TracksPanel::showCount, &QAbstractItemModel::dataChanged, &QAbstractItemModel::rowsRemoved);
     whenAny(&proxy(), this, &TracksPanel::showCount, &QAbstractItemModel::modelReset, &QAbstractItemModel::rowsInserted,
             &QAbstractItemModel::rowsRemoved);
     onEdited(this, &TracksPanel::filterTracks, tentative_);
+    hideAtFirst({TracksModel::lowest_column, TracksModel::highest_column}, TracksModel::speed_column);
     // Left over from a day that ended with such a list.
     table()->setColumnHidden(TracksModel::like_column, true);
     if (table()->horizontalHeader()->sortIndicatorSection() == TracksModel::like_column)
@@ -100,8 +115,20 @@ bool TracksPanel::isOfTheRun(const TrackSummary& track) const {
 }
 
 bool TracksPanel::isListed(const TrackSummary& track) const {
-    return isOfTheRun(track) && track.score >= minScore() &&
-           chips_->filter().holds(track, tracks_->scale(), doings_.get(), likeness_.get());
+    return isOfTheRun(track) && track.score >= minScore() && chips_->filter().holds(track, tracks_->scale(), facts());
+}
+
+TrackFacts TracksPanel::facts() const {
+    return {.doings = doings_.get(),
+            .likeness = likeness_.get(),
+            .frame_of_day = tracks_->clock().frame_of_day,
+            .now = shown_frame_};
+}
+
+void TracksPanel::setShownFrame(FrameIndex frame) {
+    if (shown_frame_ == frame) return;
+    shown_frame_ = frame;
+    if (chips_->filter().asksNow() && !now_due_.pending()) now_due_.start();
 }
 
 void TracksPanel::filterTracks() {
@@ -137,7 +164,22 @@ void TracksPanel::setDoings(const std::shared_ptr<const DoingsByTrack>& doings) 
     if (doings_ == doings) return;
     doings_ = doings;
     chips_->setDoings(doings);
-    if (chips_->filter().any()) filterTracks();
+    tracks_->setDoings(doings);
+    if (!chips_->filter().any()) return;
+    filterTracks();
+    tellQuery();
+}
+
+std::shared_ptr<const TrackQuery> TracksPanel::query() const {
+    if (!chips_->filter().any()) return nullptr;
+    return std::make_shared<const TrackQuery>(chips_->filter(), tracks_->tracks(), tracks_->scale(),
+                                              TrackQuery::Known{doings_, likeness_}, tracks_->clock().frame_of_day);
+}
+
+void TracksPanel::tellQuery() {
+    const bool any = chips_->filter().any();
+    if (!std::exchange(told_query_, any) && !any) return;
+    commands_.query_changed();
 }
 
 // ---- tracks like one ------------------------------------------------------------------------------------------------
@@ -161,6 +203,7 @@ void TracksPanel::useFilter() {
         commands_.want_likeness(like);  // what is listed stays until it is known
     }
     filterTracks();
+    tellQuery();
 }
 
 void TracksPanel::setLikeness(const std::shared_ptr<const LikenessByTrack>& likeness) {
@@ -168,6 +211,7 @@ void TracksPanel::setLikeness(const std::shared_ptr<const LikenessByTrack>& like
     likeness_ = likeness;
     tracks_->setLikeness(likeness);
     filterTracks();
+    tellQuery();
 }
 
 void TracksPanel::orderByLikeness(bool wanted) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "review/tracks/track_doings.h"
+#include "review/tracks/track_query.h"
 #include "review/tracks/tracks_model.h"
 #include "widgets/tables/table_panel.h"
 
@@ -26,6 +27,8 @@ struct TrackListCommands {
     std::function<void(double score)> use_min_score = [](double) {};
     /// What the tracks did is asked for: setDoings().
     std::function<void()> want_doings = [] {};
+    /// The chips narrow to something else, or what they ask for is known otherwise: query().
+    std::function<void()> query_changed = [] {};
     /// How like the others are to this track is asked for, setLikeness(), anew when what counts changes; none: no
     /// more.
     std::function<void(std::optional<TrackId> track)> want_likeness = [](std::optional<TrackId>) {};
@@ -47,10 +50,14 @@ class TracksPanel : public TablePanel {
     void setThreshold(double score);
     /// How unsure tracks may be that are listed, 0 … 100 %: at 100 all are, at 40 those with a score of 0.6 or more.
     QSlider* sensitivity() const { return sensitivity_; }
-    /// What narrows the list further, by speed, life, length, score, direction, events and zones.
+    /// What narrows the list further, by speed, life, length, score, direction, events, zones, time and state.
     FilterChips& chips() { return *chips_; }
+    /// The chips as they narrow what happens to tracks; null where they narrow nothing.
+    std::shared_ptr<const TrackQuery> query() const;
     /// What the tracks did, for the chips; null while nobody knows.
     void setDoings(const std::shared_ptr<const DoingsByTrack>& doings);
+    /// The frame that is shown, for "moving now"; while it plays, the list follows now and then.
+    void setShownFrame(FrameIndex frame);
     /// Lists tracks like this one, the most like first, until the chip that says so is removed; none: does not.
     void listLike(std::optional<TrackId> track);
     /// How like tracks are to the one that was asked about; of another one it counts for nothing.
@@ -70,10 +77,12 @@ class TracksPanel : public TablePanel {
  private:
     void activate(int track, int column);
     void useFilter();
+    void tellQuery();
     /// Brings the column of likeness and its order, or takes them away again.
     void orderByLikeness(bool wanted);
     bool isOfTheRun(const TrackSummary& track) const;
     bool isListed(const TrackSummary& track) const;
+    TrackFacts facts() const;
     void filterTracks();
     void showCount();
     double minScore() const;
@@ -90,9 +99,12 @@ class TracksPanel : public TablePanel {
     FilterChips* chips_;
     std::shared_ptr<const DoingsByTrack> doings_;
     std::shared_ptr<const LikenessByTrack> likeness_;
+    std::optional<FrameIndex> shown_frame_;
+    bool told_query_ = false;      ///< there was one
     std::optional<TrackId> like_;  ///< that was asked about
     LikenessChoice like_counts_;
     std::pair<int, Qt::SortOrder> order_before_like_{};  ///< column and order
+    DelayedCall now_due_;
 };
 
 }  // namespace eyrie::ui

@@ -27,6 +27,7 @@ namespace eyrie::ui {
 namespace {
 
 constexpr QLatin1String kFittedKey("_fitted");
+constexpr QLatin1String kKnownKey("_known");
 constexpr int kLeastTable_px = 48;  ///< the header and a row; what columns of docks need in a small window
 constexpr int kWidening_ms = 1000;
 
@@ -330,6 +331,8 @@ void TablePanel::restoreColumns() {
     if (columns_fit_) {
         for (const QVariant& width : QSettings().value(settings_key_ + kFittedKey).toList())
             fitted_widths_ << width.toInt();
+        // Before it was kept, a memory told of as many columns as it has widths.
+        known_columns_ = QSettings().value(settings_key_ + kKnownKey, static_cast<int>(fitted_widths_.size())).toInt();
         // A list that never had a row has widths that fit nothing.
         columns_fit_ = !fitted_widths_.isEmpty();
     } else {
@@ -340,11 +343,22 @@ void TablePanel::restoreColumns() {
     if (shownColumns().isEmpty()) table_->showColumn(0);
 }
 
+void TablePanel::hideAtFirst(const QList<int>& columns, int beside) {
+    QHeaderView* header = table_->horizontalHeader();
+    int place = header->visualIndex(beside) + 1;
+    for (const int column : columns) {
+        if (column < known_columns_) continue;
+        header->setSectionHidden(column, true);
+        header->moveSection(header->visualIndex(column), place++);
+    }
+}
+
 void TablePanel::saveColumns() const {
     QSettings().setValue(settings_key_, table_->horizontalHeader()->saveState());
     QVariantList widths;
     for (const int width : fitted_widths_) widths << width;
     QSettings().setValue(settings_key_ + kFittedKey, widths);
+    QSettings().setValue(settings_key_ + kKnownKey, proxy_->columnCount());
 }
 
 }  // namespace eyrie::ui

@@ -43,6 +43,8 @@ class TablePanel : public QWidget {
 
  protected:
     TableSortProxy& proxy() { return *proxy_; }
+    /// Columns that are hidden, and stand right of `beside`, until a person shows or moves them. For constructors.
+    void hideAtFirst(const QList<int>& columns, int beside);
     /// Place for buttons right of the filter line.
     QHBoxLayout* toolRow() const { return tool_row_; }
     /// The user selected another row.
@@ -91,6 +93,7 @@ class TablePanel : public QWidget {
     QStackedLayout* stack_;
     QList<int> fitted_widths_;  ///< of a column with another width somebody chose it
     DelayedCall widening_due_;
+    int known_columns_ = 0;     ///< that the memory tells of
     bool columns_fit_ = false;  ///< widths were remembered, or fitted to the first rows
     int kept_id_ = 0;           ///< selected by user or program; selected again when its row comes back
     bool telling_ = true;       ///< false while the program selects

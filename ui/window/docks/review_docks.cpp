@@ -53,6 +53,7 @@ ReviewDocks::ReviewDocks(const ReviewParts& parts) : QObject(&parts.docks), part
                      [this] { showRuns(); }},
                     {SessionChange::run_data, [this] { adoptAwaitedParameters(); }},
                     {{SessionChange::current_run, SessionChange::run_data}, [this] { showTracks(); }},
+                    {SessionChange::picture, [this] { tracks_->setShownFrame(session_.shownFrame()); }},
                     {SessionChange::selection, [this] { tracks_->selectId(session_.selectedTrack().value_or(0)); }},
                 });
     wireRuns();
@@ -113,6 +114,7 @@ void ReviewDocks::wireTracks() {
             },
         .use_min_score = [this](double score) { parts_.overlays.setMinScore(score); },
         .want_doings = [this] { want_doings_(); },
+        .query_changed = [this] { tell_query_(); },
         .want_likeness = [this](std::optional<TrackId> track) { want_likeness_(track); },
     });
     const WindowActions& actions = parts_.actions;

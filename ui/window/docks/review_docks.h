@@ -60,6 +60,8 @@ class ReviewDocks : public QObject {
     InspectorPanel& inspector() { return *inspector_; }
     /// What is done when somebody asks for what the tracks did: TracksPanel::setDoings().
     void setDoingsWanted(std::function<void()> want) { want_doings_ = std::move(want); }
+    /// What is done when TracksPanel::query() is another.
+    void setQueryChanged(std::function<void()> tell) { tell_query_ = std::move(tell); }
     /// What is done when the list asks how like tracks are to one: TracksPanel::setLikeness().
     void setLikenessWanted(std::function<void(std::optional<TrackId>)> want) { want_likeness_ = std::move(want); }
 
@@ -88,6 +90,7 @@ class ReviewDocks : public QObject {
     MotionStatisticsPanel* statistics_;
     SweepPanel* sweeps_;
     std::function<void()> want_doings_ = [] {};
+    std::function<void()> tell_query_ = [] {};
     std::function<void(std::optional<TrackId>)> want_likeness_ = [](std::optional<TrackId>) {};
     std::optional<int> parameters_wanted_of_;  ///< run whose parameters are taken over once they are read
 };
