@@ -52,7 +52,8 @@ StartOptions readOptions(const QCoreApplication& application, int argc, char** a
     parser.addPositionalArgument(
         QStringLiteral("input"),
         QStringLiteral("Video, or several files that count as one video, in their order; folder of "
-                       "images; address of a live source (udp://, rtsp:// and others); or "
+                       "images; live source, by its address (udp://, rtsp:// and others) or as a camera "
+                       "(/dev/video0); or "
                        "project (.eyrie)."),
         QStringLiteral("[VIDEO…|ADDRESS|PROJECT]"));
     const QCommandLineOption gsd(QStringLiteral("gsd"), QStringLiteral("Ground sampling distance, metres per pixel."),

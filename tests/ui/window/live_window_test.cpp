@@ -75,15 +75,27 @@ class LiveWindowTest : public QObject {
         for (const auto& [address, fault] :
              std::map<QString, QString>{{QStringLiteral("clip.mp4"), QStringLiteral("rtsp://clip.mp4")},
                                         {QStringLiteral("/films/clip.mp4"), QStringLiteral("Open video")},
-                                        {QStringLiteral("/dev/video0"), QStringLiteral("ffmpeg -f v4l2")},
+                                        {QStringLiteral("/dev/null"), QStringLiteral("no camera")},
                                         {QStringLiteral("foo://camera"), QStringLiteral("is not known")},
                                         {QStringLiteral("udp://239.0.0.1"), QStringLiteral("port is missing")}}) {
             type(*dialog, QStringLiteral("live_address"), address);
             QVERIFY2(says(*dialog, fault), qPrintable(address));
             QVERIFY2(!can_watch(), qPrintable(address));
         }
-        type(*dialog, QStringLiteral("live_address"), QStringLiteral("rtsp://camera/stream"));
-        QVERIFY(can_watch());
+        for (const auto& address : {QStringLiteral("rtsp://camera/stream"), QStringLiteral("/dev/video0")}) {
+            type(*dialog, QStringLiteral("live_address"), address);
+            QVERIFY2(can_watch(), qPrintable(address));
+        }
+    }
+
+    void aCameraThatIsNotThereIsToldWhereItWasTyped() {
+        MainWindow window;
+        LiveDialog* dialog = askIn(window);
+        type(*dialog, QStringLiteral("live_address"), QStringLiteral("camera:/dev/no-such-camera"));
+        type(*dialog, QStringLiteral("live_project"), QString::fromStdString((*home_ / "p.eyrie").string()));
+        QVERIFY(press(*dialog, QStringLiteral("Watch")));
+        QVERIFY(waitFor([&] { return says(*dialog, QStringLiteral("/dev/no-such-camera: there is no such camera")); }));
+        QVERIFY(!std::filesystem::exists(*home_ / "p.eyrie"));
     }
 
     void theRecordingLiesBesideTheProjectUnlessAnotherPlaceIsChosen() {
