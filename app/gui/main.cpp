@@ -7,8 +7,10 @@
 #include <cstdio>
 #include <string_view>
 
+#include "core/error.h"
 #include "core/values/scene_scale.h"
 #include "gui/ending_signals.h"
+#include "window/docks/report_printing.h"
 #include "window/main_window.h"
 #include "window/screenshot.h"
 #include "window/theme.h"
@@ -52,7 +54,8 @@ StartOptions readOptions(const QCoreApplication& application, int argc, char** a
     parser.addPositionalArgument(
         QStringLiteral("input"),
         QStringLiteral("Video, or several files that count as one video, in their order; folder of "
-                       "images; address of a live source (udp://, rtsp:// and others); or "
+                       "images; live source, by its address (udp://, rtsp:// and others) or as a camera "
+                       "(/dev/video0); or "
                        "project (.eyrie)."),
         QStringLiteral("[VIDEO…|ADDRESS|PROJECT]"));
     const QCommandLineOption gsd(QStringLiteral("gsd"), QStringLiteral("Ground sampling distance, metres per pixel."),
@@ -127,9 +130,25 @@ void needDisplay(int argc, char** argv) {
     refuse(QStringLiteral("there is no display to show a window on. `eyrie-cli run` processes a video without one."));
 }
 
+/// `eyrie --print-report PACKED PDF`: how eyrie-cli has reports printed, without a window. Answers the exit code.
+int printReport(const char* packed, const char* pdf) {
+    try {
+        eyrie::ui::printPackedReport(packed, pdf);
+        return 0;
+    } catch (const eyrie::Error& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        return 4;
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+    if (argc >= 4 && std::string_view(argv[1]) == "--print-report") {
+        QGuiApplication application(argc, argv);
+        nameProgram();
+        return printReport(argv[2], argv[3]);
+    }
     if (asksForText(argc, argv)) {
         QCoreApplication application(argc, argv);
         nameProgram();

@@ -55,6 +55,13 @@ std::string selfContained(const ReportFile& report) {
     return html;
 }
 
+FileKind kindOfReport(const std::filesystem::path& path) {
+    std::string ending = path.extension().string();
+    for (char& letter : ending)
+        letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+    return ending == ".pdf" ? FileKind::pdf : FileKind::html;
+}
+
 void writeHtmlReport(const std::filesystem::path& path, const ReportFile& report) {
     writeFileAtomically(path, selfContained(report));
 }

@@ -4,6 +4,8 @@
 #include <map>
 #include <string>
 
+#include "io/file_kind.h"
+
 namespace eyrie {
 
 /// A picture of a report.
@@ -30,6 +32,8 @@ std::string reportPage(const std::string& title, const std::string& body);
 
 /// The document with its pictures inside, for one file without network.
 std::string selfContained(const ReportFile& report);
+/// What a report is written as: PDF where its name ends so, else HTML.
+FileKind kindOfReport(const std::filesystem::path& path);
 /// Throws Error(output); the file is either complete or as it was before.
 void writeHtmlReport(const std::filesystem::path& path, const ReportFile& report);
 

@@ -91,6 +91,17 @@ TEST_F(HandOver, AnAddressThatNeverAnswersIsToldAndLeavesNoRun) {
     EXPECT_EQ(call({"run", address(), "--project", at("absent/live.eyrie"), "--wait", "0.6"}).exit_code, 4);
 }
 
+TEST_F(HandOver, ACameraThatIsNoneIsToldAndLeavesNoRun) {
+    const auto absent = call({"run", "camera:/dev/no-such-camera", "--project", at("live.eyrie"), "--quiet"});
+    EXPECT_EQ(absent.exit_code, 3);
+    EXPECT_THAT(absent.errors, HasSubstr("/dev/no-such-camera: there is no such camera"));
+    const auto other = call({"run", "camera:/dev/null", "--project", at("live.eyrie"), "--quiet"});
+    EXPECT_EQ(other.exit_code, 3);
+    EXPECT_THAT(other.errors, HasSubstr("/dev/null: this device is no camera"));
+    EXPECT_FALSE(std::filesystem::exists(at("live.eyrie")));
+    EXPECT_FALSE(std::filesystem::exists(at("live.ts")));
+}
+
 TEST_F(HandOver, WhatCannotBeRecordedLeavesNothing) {
     VideoWriterOptions options;
     options.codec = "mjpeg";

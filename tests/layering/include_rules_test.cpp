@@ -100,6 +100,23 @@ const std::map<std::string, WindowRoom> allowed_in_window = {
     {"window", {{"canvas", "widgets", "session", "workspace", "review", "label", "tune"}, {}}},
 };
 
+/// Which folders of the command line each may include besides itself; "." is what lies in none of them. Nobody includes
+/// a command.
+const std::map<std::string, std::set<std::string>> allowed_in_command_line = {
+    {".", {"arguments"}},
+    {"reports", {"."}},
+    {"arguments", {".", "reports"}},
+    {"batch", {".", "arguments", "reports"}},
+    {"live", {".", "arguments", "reports"}},
+    {"commands", {".", "arguments", "batch", "live", "reports"}},
+};
+
+/// The folder of a file of the command line by its path from app/: "cli/arguments/input.h" lies in "arguments".
+std::string folderInCommandLine(const fs::path& from_app) {
+    const std::string folder = from_app.lexically_relative("cli").begin()->string();
+    return allowed_in_command_line.count(folder) ? folder : ".";
+}
+
 }  // namespace
 
 TEST(IncludeRules, engineRoomsIncludeOnlyTheRoomsTheyMay) {
@@ -143,8 +160,41 @@ TEST(IncludeRules, roomsOfTheWindowIncludeOnlyTheRoomsTheyMay) {
 TEST(IncludeRules, commandLineKnowsNothingOfTheWindow) {
     for (const auto& include : includesBelow(source_dir / "app" / "cli")) {
         const std::string target = include.included.substr(0, include.included.find('/'));
-        EXPECT_FALSE(allowed_in_window.count(target)) << include.file.string() << " includes " << include.included;
+        EXPECT_FALSE(allowed_in_window.count(target) || target == "gui")
+            << include.file.string() << " includes " << include.included;
     }
+}
+
+TEST(IncludeRules, foldersOfTheCommandLineIncludeOnlyThoseTheyMay) {
+    for (const auto& entry : fs::directory_iterator(source_dir / "app" / "cli"))
+        EXPECT_TRUE(!entry.is_directory() || allowed_in_command_line.count(entry.path().filename().string()))
+            << entry.path() << " is not in the plan";
+    int between_folders = 0;
+    for (const auto& include : includesBelow(source_dir / "app")) {
+        if (include.room != "cli" || include.included.rfind("cli/", 0) != 0) continue;
+        const std::string from = folderInCommandLine(fs::relative(include.file, source_dir / "app"));
+        const std::string target = folderInCommandLine(include.included);
+        if (target == from) continue;
+        ++between_folders;
+        EXPECT_TRUE(allowed_in_command_line.at(from).count(target))
+            << include.file.string() << " includes " << include.included << ", which " << from << " may not see";
+    }
+    EXPECT_GT(between_folders, 50) << "includes are not recognised any more";
+}
+
+TEST(IncludeRules, theProgramOfTheWindowIncludesOnlyTheWindow) {
+    int of_window = 0;
+    for (const auto& include : includesBelow(source_dir / "app")) {
+        const std::size_t slash = include.included.find('/');
+        if (include.room != "gui" || slash == std::string::npos) continue;
+        const std::string target = include.included.substr(0, slash);
+        // Of the engine the words that everybody speaks: values and errors.
+        EXPECT_TRUE(target == "window" || target == "gui" || target == "core" || target.rfind("Qt", 0) == 0 ||
+                    target == "sys")
+            << include.file.string() << " includes " << include.included;
+        of_window += target == "window" ? 1 : 0;
+    }
+    EXPECT_GT(of_window, 0) << "includes are not recognised any more";
 }
 
 TEST(IncludeRules, noTwoFilesHaveOneName) {

@@ -142,7 +142,9 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
         session_, *messages_, *docks_, [this] { files_->locateVideo(); }, this);
     const auto tell_events = [this, told] {
         const auto& found = events_->review().found();
-        if (found && session_.currentRun()) told->tellEvents(*session_.currentRun(), found->events.size());
+        // What a run that works has found so far is no news of its end.
+        if (found && !events_->review().asOf() && session_.currentRun())
+            told->tellEvents(*session_.currentRun(), found->events.size());
     };
     whenAny(events_, told, tell_events, &EventsDock::eventsShown);
     files_ =

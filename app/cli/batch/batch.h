@@ -10,7 +10,7 @@
 #include "cli/arguments/run_choice.h"
 #include "cli/batch/batch_record.h"
 #include "cli/batch/batch_rows.h"
-#include "cli/batch/child_program.h"
+#include "cli/child_program.h"
 
 namespace eyrie::cli {
 

@@ -13,6 +13,7 @@
 #include "cli/interrupt.h"
 #include "cli/project_runs.h"
 #include "cli/reports/console_progress.h"
+#include "cli/reports/pdf_report.h"
 #include "core/error.h"
 #include "core/utc_time.h"
 #include "io/file_digest.h"
@@ -71,8 +72,9 @@ int makeEventReport(const ReportArguments& arguments) {
     const InterruptGuard interrupt;
     ProjectFile project = openForReading(arguments.events.project);
     const RunRecord run = chosenRun(RunStore(project), arguments.events.project, arguments.events.run);
-    arguments.outputs.check({{arguments.out, FileKind::html}},
+    arguments.outputs.check({{arguments.out, kindOfReport(arguments.out)}},
                             {arguments.events.project, events.zones, run.sequence.path});
+    checkReportCanBeWritten(arguments.out);
     const std::unique_ptr<FrameSource> pixels = pixelsOf(run, "pictures", interrupt.token());
     ReviewReportInput input = gatherReviewReport(project, run, choice, pixels.get(), start, interrupt.token());
     events.tellZones(input.reviewed);
@@ -87,7 +89,7 @@ int makeEventReport(const ReportArguments& arguments) {
             input, pixels.get(), [&](double share) { progress.showShare(share); }, interrupt.token());
     }
     if (interrupt.token().stop_requested()) return exit_stopped;
-    writeHtmlReport(arguments.out, report);
+    if (!writeReport(arguments.out, report, interrupt.token())) return exit_stopped;
     std::printf("Report: %s, %s, %zu of %zu events\n", arguments.out.c_str(), runText(run).c_str(),
                 countOfEvents(input), input.reviewed.events.size());
     if (countOfEvents(input) == 0 && !input.reviewed.events.empty())
@@ -95,8 +97,11 @@ int makeEventReport(const ReportArguments& arguments) {
     return exit_ok;
 }
 
-void makeReport(const ReportArguments& arguments) {
-    arguments.outputs.check({{arguments.out, FileKind::html}}, {arguments.events.project, arguments.ground_truth.file});
+/// Answers the exit code.
+int makeReport(const ReportArguments& arguments) {
+    arguments.outputs.check({{arguments.out, kindOfReport(arguments.out)}},
+                            {arguments.events.project, arguments.ground_truth.file});
+    checkReportCanBeWritten(arguments.out);
     EvaluationRequest request = arguments.request;
     request.project = arguments.events.project;
     request.truth = arguments.ground_truth.source();
@@ -117,22 +122,29 @@ void makeReport(const ReportArguments& arguments) {
     ReportOptions options;
     options.made_utc = nowUtc();
     options.chips = arguments.chips;
-    writeHtmlReport(arguments.out, makeEvaluationReport(*evaluation, pixels.get(), options));
+    const ReportFile report = makeEvaluationReport(*evaluation, pixels.get(), options);
+    const InterruptGuard interrupt;
+    if (!writeReport(arguments.out, report, interrupt.token())) return exit_stopped;
     std::printf("Report: %s, %s, f-score %.4f at T_ov %g, %zu errors\n", arguments.out.c_str(),
                 runText(evaluation->run).c_str(), evaluation->shown.detection.f_score, evaluation->options.overlap,
                 evaluation->errors.size());
+    return exit_ok;
 }
 
 }  // namespace
 
 void addReportCommand(CLI::App& app, int& exit_code) {
     const auto arguments = std::make_shared<ReportArguments>();
-    CLI::App* command = app.add_subcommand(
-        "report",
-        "Write one HTML file about a run: its evaluation, with measures, curves and errors, or its events as judged");
+    CLI::App* command = app.add_subcommand("report",
+                                           "Write one HTML or PDF file about a run: its evaluation, with measures, "
+                                           "curves and errors, or its events as judged");
     arguments->events.addRunTo(*command);
     arguments->ground_truth.addTo(*command, kLabelsOtherwise);
-    command->add_option("--out", arguments->out, "HTML file to write")->required();
+    command
+        ->add_option("--out", arguments->out,
+                     "File to write: PDF where its name ends so (needs the program eyrie beside this one), else "
+                     "HTML")
+        ->required();
     command->add_option("--against", arguments->against,
                         "Another run over the same video; tells whether the difference is more than chance");
     command->add_flag("--detections", arguments->request.detections, "Measure the run's detections, not its tracks");
@@ -167,8 +179,7 @@ void addReportCommand(CLI::App& app, int& exit_code) {
             exit_code = makeEventReport(*arguments);
             return;
         }
-        makeReport(*arguments);
-        exit_code = exit_ok;
+        exit_code = makeReport(*arguments);
     });
 }
 

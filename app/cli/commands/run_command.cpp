@@ -353,8 +353,9 @@ void addRunCommand(CLI::App& app, int& exit_code) {
         app.add_subcommand("run", "Find and follow the moving vehicles of a video and store them in a project");
     command->add_option("input", arguments->inputs,
                         "A video file, or several that count as one video, in their order; a list of such (*.parts), a "
-                        "folder of images, scene:NAME for a built-in scene, or the address of a live source (udp://, "
-                        "rtsp://, srt:// and others); with --resume and --project it may be left out");
+                        "folder of images, scene:NAME for a built-in scene, the address of a live source (udp://, "
+                        "rtsp://, srt:// and others) or a camera (/dev/video0, camera:0); with --resume and --project "
+                        "it may be left out");
     command->add_option(
         "--project", arguments->project,
         "Project file; made when it does not exist, else a run is added (default: INPUT's name in this folder)");

@@ -10,6 +10,8 @@ namespace {
 constexpr std::array<const char*, 11> kLiveSchemes{"udp",  "rtp",   "rtsp", "rtsps", "srt", "tcp",
                                                    "http", "https", "rtmp", "rtmps", "mmsh"};
 constexpr char kBetween[] = "://";
+constexpr char kCamera[] = "camera:";
+constexpr char kDevices[] = "/dev/";
 constexpr int kHighestPort = 65535;
 
 bool isOneOf(const std::string& scheme, std::initializer_list<const char*> schemes) {
@@ -37,9 +39,24 @@ std::string faultOfPort(const std::string& scheme, const std::string& place) {
     return "“" + place.substr(colon + 1) + "” is not a port; it is a number from 1 to " + std::to_string(kHighestPort);
 }
 
+bool isNumber(const std::string& text) {
+    return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+}
+
 }  // namespace
 
+bool isCamera(const std::string& input) {
+    return input.starts_with(kCamera) || input.starts_with("/dev/video") || input.starts_with("/dev/v4l/");
+}
+
+std::string cameraDevice(const std::string& camera) {
+    if (!camera.starts_with(kCamera)) return camera;
+    const std::string named = camera.substr(std::char_traits<char>::length(kCamera));
+    return isNumber(named) ? "/dev/video" + named : named;
+}
+
 bool isLiveAddress(const std::string& input) {
+    if (isCamera(input)) return true;
     const std::size_t end = input.find(kBetween);
     if (end == std::string::npos) return false;
     const std::string scheme = input.substr(0, end);
@@ -47,6 +64,7 @@ bool isLiveAddress(const std::string& input) {
 }
 
 std::string shownAddress(const std::string& address) {
+    if (isCamera(address)) return address;
     const std::string shown = address.substr(0, address.find('?'));
     const std::size_t begin = shown.find(kBetween);
     const std::size_t end = begin == std::string::npos ? begin : shown.find('/', begin + 3);
@@ -57,10 +75,14 @@ std::string shownAddress(const std::string& address) {
 }
 
 std::string faultOfAddress(const std::string& address) {
-    if (address.empty()) return "an address is needed, such as rtsp://camera/stream or udp://@239.0.0.1:5000";
-    if (address.starts_with("/dev/"))
-        return "cameras of this machine are not opened directly; send it, for example by ffmpeg -f v4l2 -i " + address +
-               " -f mpegts udp://127.0.0.1:5000, and watch udp://127.0.0.1:5000";
+    if (address.empty())
+        return "an address is needed, such as rtsp://camera/stream, udp://@239.0.0.1:5000 or /dev/video0";
+    if (isCamera(address)) {
+        if (cameraDevice(address).starts_with(kDevices)) return {};
+        return "a camera is named by its number or its device, such as camera:0 or /dev/video0";
+    }
+    if (address.starts_with(kDevices))
+        return "“" + address + "” is no camera; cameras of this machine are named like /dev/video0";
     if (address.find_first_of(" \t\n") != std::string::npos) return "an address has no blanks";
     const std::size_t end = address.find(kBetween);
     if (end == std::string::npos)

@@ -1,41 +1,38 @@
 #pragma once
 
-#include <chrono>
+#include <memory>
 #include <stop_token>
 #include <string>
 
+#include "io/live/camera_device.h"
 #include "io/video/libav.h"
 
 /// Inside of this room only.
 namespace eyrie {
 
-/// An address that is open. Every wait has a limit.
+/// A live source that is open and sends packets of video, whatever it is. Every wait has a limit.
 class LiveConnection {
  public:
-    /// Throws Error(input) when nothing of use comes within `seconds`.
-    LiveConnection(const std::string& address, double seconds, const std::stop_token& stop);
+    LiveConnection() = default;
+    virtual ~LiveConnection() = default;
     LiveConnection(const LiveConnection&) = delete;
     LiveConnection& operator=(const LiveConnection&) = delete;
 
-    AVFormatContext& demuxer() { return *demuxer_; }
-    int video() const { return video_; }
-    const AVStream& videoStream() const { return *demuxer_->streams[video_]; }
+    virtual const AVFormatContext& demuxer() const = 0;
+    virtual int video() const = 0;
+    const AVStream& videoStream() const { return *demuxer().streams[video()]; }
     /// The next packet of any track; false when none came for `seconds`, at the end and when stopped.
-    bool read(AVPacket& packet, double seconds);
-    /// Whether the last packet came when waiting had been given up: the demuxer had held it back until then.
-    bool wasHeldBack() const { return std::chrono::steady_clock::now() >= limit_; }
+    virtual bool read(AVPacket& packet, double seconds) = 0;
+    /// Whether the last packet came when waiting had been given up: it had been held back until then.
+    virtual bool wasHeldBack() const { return false; }
     /// Whether all of a source that has an end, such as a file on the net, was read.
-    bool hasEnded() const { return has_ended_; }
-
- private:
-    static int overdue(void* self);
-    void allow(double seconds);
-
-    std::stop_token stop_;
-    std::chrono::steady_clock::time_point limit_;
-    libav::Demuxer demuxer_;
-    int video_ = -1;
-    bool has_ended_ = false;
+    virtual bool hasEnded() const { return false; }
 };
+
+/// An address of the net. Throws Error(input) when nothing of use comes within `seconds`.
+std::unique_ptr<LiveConnection> connectToNet(const std::string& address, double seconds, const std::stop_token& stop);
+/// A camera, whose pictures are encoded as they come. Throws Error(input) where it sends none, and what `open` throws.
+std::unique_ptr<LiveConnection> connectToCamera(const std::string& address, const CameraOpener& open,
+                                                const std::stop_token& stop);
 
 }  // namespace eyrie

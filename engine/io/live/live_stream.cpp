@@ -121,8 +121,13 @@ struct LiveStream::Receiver {
         recording.finish();
     }
 
+    std::unique_ptr<LiveConnection> connect(double seconds) const {
+        return isCamera(address) ? connectToCamera(address, options.open_camera, ending.get_token())
+                                 : connectToNet(address, seconds, ending.get_token());
+    }
+
     void receiveInto(LiveRecording& recording) {
-        auto connection = std::make_unique<LiveConnection>(address, options.connect_s, ending.get_token());
+        auto connection = connect(options.connect_s);
         while (connection) {
             if (!goesOnWith(*connection)) break;
             recording.begin(connection->demuxer(), connection->video());
@@ -155,8 +160,7 @@ struct LiveStream::Receiver {
                 return nullptr;
             }
             try {
-                auto connection = std::make_unique<LiveConnection>(
-                    address, std::max(0.5, std::min(left, options.connect_s)), ending.get_token());
+                auto connection = connect(std::max(0.5, std::min(left, options.connect_s)));
                 const std::scoped_lock lock(mutex);
                 ++facts.reconnects;
                 facts.connected = true;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "io/live/camera_device.h"
 #include "io/video/frame_source.h"
 
 namespace eyrie {
@@ -22,6 +23,7 @@ struct LiveOptions {
     /// With less space for the recording than this the stream ends, so that what was found can still be stored.
     std::uint64_t least_free_bytes = 100'000'000;
     std::vector<std::filesystem::path> also_written;  ///< what grows on other disks, which must keep that space, too
+    CameraOpener open_camera;                         ///< empty: openCamera()
 };
 
 /// What became of a stream so far.
@@ -40,7 +42,8 @@ struct LiveFacts {
 /// Thrown by reading a frame that a live source will never have, because it has ended.
 struct StreamEnded {};
 
-/// Video that comes as it is made, from the first key frame on. A thread of its own receives, records and decodes;
+/// Video that comes as it is made, over the net from the first key frame on, or from a camera of this machine, encoded
+/// here. A thread of its own receives, records and decodes;
 /// frames must be read in their order. A frame that was left out is answered by the picture before it, in the same
 /// memory, with its own number and time, so that numbers are those of the recording.
 class LiveStream : public FrameSource {

@@ -306,12 +306,15 @@ TEST_F(LiveStreams, FramesCarryColourWhereItIsWanted) {
 
 TEST(LiveAddresses, SayWhatIsWrongWithThemAndWhatTheyLookLike) {
     for (const char* good : {"rtsp://camera/stream", "rtsp://me:secret@camera:554/s", "udp://@239.0.0.1:5000",
-                             "udp://:5000", "udp://0.0.0.0:5000?ttl=2", "srt://[::1]:9000", "http://camera/film.ts"})
+                             "udp://:5000", "udp://0.0.0.0:5000?ttl=2", "srt://[::1]:9000", "http://camera/film.ts",
+                             "/dev/video0", "camera:0", "/dev/v4l/by-id/usb-camera-index0", "camera:/dev/any"})
         EXPECT_EQ(faultOfAddress(good), "") << good;
     const std::map<std::string, std::string> faults{{"", "an address is needed"},
                                                     {"camera", "rtsp://camera"},
                                                     {"/films/a.mp4", "Open video"},
-                                                    {"/dev/video0", "ffmpeg -f v4l2 -i /dev/video0"},
+                                                    {"/dev/null", "“/dev/null” is no camera"},
+                                                    {"camera:", "camera:0 or /dev/video0"},
+                                                    {"camera:front", "camera:0 or /dev/video0"},
                                                     {"rtsp:// camera", "no blanks"},
                                                     {"file:///etc/passwd", "“file” is not known"},
                                                     {"rtsp:///stream", "the name of the sender is missing"},
@@ -325,7 +328,15 @@ TEST(LiveAddresses, SayWhatIsWrongWithThemAndWhatTheyLookLike) {
     for (const auto& [address, fault] : faults) EXPECT_THAT(faultOfAddress(address), HasSubstr(fault)) << address;
 }
 
-TEST(LiveAddresses, AreThoseOfTheNet) {
+TEST(LiveAddresses, AreThoseOfTheNetAndCameras) {
+    EXPECT_TRUE(isLiveAddress("/dev/video0"));
+    EXPECT_TRUE(isLiveAddress("camera:2"));
+    EXPECT_FALSE(isLiveAddress("/dev/shm/clip.mp4"));
+    EXPECT_FALSE(isLiveAddress("camera.mp4"));
+    EXPECT_EQ(cameraDevice("camera:2"), "/dev/video2");
+    EXPECT_EQ(cameraDevice("camera:/dev/any"), "/dev/any");
+    EXPECT_EQ(cameraDevice("/dev/video0"), "/dev/video0");
+    EXPECT_EQ(shownAddress("/dev/video0"), "/dev/video0");
     EXPECT_TRUE(isLiveAddress("udp://239.0.0.1:5000"));
     EXPECT_TRUE(isLiveAddress("rtsp://camera/stream"));
     EXPECT_FALSE(isLiveAddress("clip.mp4"));

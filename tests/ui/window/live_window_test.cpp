@@ -5,6 +5,10 @@
 #include <QSpinBox>
 #include <QTest>
 
+#include "review/events/event_review.h"
+#include "review/events/event_thresholds.h"
+#include "review/events/events_dock.h"
+#include "review/events/events_panel.h"
 #include "ui/session/session_support.h"
 #include "ui/support/live_film.h"
 #include "ui/support/ui_test.h"
@@ -15,6 +19,7 @@
 #include "window/live/live_text.h"
 #include "window/live/live_watching.h"
 #include "window/main_window.h"
+#include "workspace/dock_registry.h"
 #include "workspace/window_actions.h"
 
 namespace eyrie::ui::live_window_test {
@@ -75,15 +80,27 @@ class LiveWindowTest : public QObject {
         for (const auto& [address, fault] :
              std::map<QString, QString>{{QStringLiteral("clip.mp4"), QStringLiteral("rtsp://clip.mp4")},
                                         {QStringLiteral("/films/clip.mp4"), QStringLiteral("Open video")},
-                                        {QStringLiteral("/dev/video0"), QStringLiteral("ffmpeg -f v4l2")},
+                                        {QStringLiteral("/dev/null"), QStringLiteral("no camera")},
                                         {QStringLiteral("foo://camera"), QStringLiteral("is not known")},
                                         {QStringLiteral("udp://239.0.0.1"), QStringLiteral("port is missing")}}) {
             type(*dialog, QStringLiteral("live_address"), address);
             QVERIFY2(says(*dialog, fault), qPrintable(address));
             QVERIFY2(!can_watch(), qPrintable(address));
         }
-        type(*dialog, QStringLiteral("live_address"), QStringLiteral("rtsp://camera/stream"));
-        QVERIFY(can_watch());
+        for (const auto& address : {QStringLiteral("rtsp://camera/stream"), QStringLiteral("/dev/video0")}) {
+            type(*dialog, QStringLiteral("live_address"), address);
+            QVERIFY2(can_watch(), qPrintable(address));
+        }
+    }
+
+    void aCameraThatIsNotThereIsToldWhereItWasTyped() {
+        MainWindow window;
+        LiveDialog* dialog = askIn(window);
+        type(*dialog, QStringLiteral("live_address"), QStringLiteral("camera:/dev/no-such-camera"));
+        type(*dialog, QStringLiteral("live_project"), QString::fromStdString((*home_ / "p.eyrie").string()));
+        QVERIFY(press(*dialog, QStringLiteral("Watch")));
+        QVERIFY(waitFor([&] { return says(*dialog, QStringLiteral("/dev/no-such-camera: there is no such camera")); }));
+        QVERIFY(!std::filesystem::exists(*home_ / "p.eyrie"));
     }
 
     void theRecordingLiesBesideTheProjectUnlessAnotherPlaceIsChosen() {
@@ -152,6 +169,33 @@ class LiveWindowTest : public QObject {
         const ElidedLabel& state = *labels.front();
         QVERIFY(state.width() >= state.fontMetrics().horizontalAdvance(state.text()));
         QVERIFY2(window.width() <= 1280, "the texts give way, not the window");
+    }
+
+    void whatHappenedSoFarIsListedWhileTheSourceIsWatched() {
+        MainWindow window;
+        const test::LiveSource source(*home_ / "");
+        const LiveSender sender(source.port, {{test::writeFilm(*home_ / "film.ts", 600), 24, 0.3}});
+        QVERIFY(watches(window, source));
+        window.docks().raise(DockId::events);
+        EventReview& review = window.events().review();
+        EventsPanel& panel = window.events().panel();
+        panel.thresholds().setValue(QStringLiteral("events.over"), QStringLiteral("5"));
+        panel.thresholds().setValue(QStringLiteral("events.over_time"), QStringLiteral("0.2"));
+        QVERIFY(waitFor([&] { return review.asOf().has_value(); }));
+        QVERIFY(window.session().running());
+        const FrameIndex first = *review.asOf();
+        QVERIFY(panel.headerText().startsWith(QStringLiteral("As of frame ")));
+        QVERIFY2(waitFor([&] { return review.asOf() && *review.asOf() > first && review.count() > 0; }),
+                 "the list is made anew");
+        QVERIFY(window.session().running());
+        QVERIFY(window.actions().next_event->isEnabled());
+        QVERIFY2(!window.actions().relevant->isEnabled(), "tracks may still change when the run ends");
+        QVERIFY(!review.judge({0}, Judgement::relevant));
+        QVERIFY(press(window.liveStrip(), QStringLiteral("Stop watching")));
+        QVERIFY(waitFor([&] { return review.state() == EventReview::State::found; }));
+        QVERIFY(!review.asOf());
+        QVERIFY(panel.headerText().contains(QStringLiteral("judged")));
+        QVERIFY(!panel.headerText().contains(QStringLiteral("As of")));
     }
 
     void closingTheWindowAsksAndKeepsAll() {

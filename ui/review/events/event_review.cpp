@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/utc_time.h"
 #include "session/project/person_name.h"
+#include "store/database/snapshot.h"
 #include "widgets/wiring.h"
 
 namespace eyrie::ui {
@@ -15,6 +16,12 @@ namespace eyrie::ui {
 namespace {
 constexpr int kSearchDelay_ms = 250;  ///< while a threshold is being changed
 constexpr int kRereadVerdicts_ms = 2000;
+constexpr int kLookAgain_ms = 1000;
+/// Between two looks at a run that works; at least so long, and so many times as long as one takes.
+constexpr double kBetweenLooks_s = 5;
+constexpr double kLooksShare = 20;
+
+using LookClock = std::chrono::steady_clock;
 
 std::vector<int> correctionsIn(const ReviewStore& store) {
     std::vector<int> ids;  // what a number stands for never changes
@@ -34,7 +41,8 @@ EventReview::EventReview(ProjectSession& session, EventReviewAnswers answers, QO
       session_(session),
       answers_(std::move(answers)),
       search_due_(kSearchDelay_ms, [this] { search(); }),
-      reread_(kRereadVerdicts_ms, [this] { refreshReadOnly(); }) {
+      reread_(kRereadVerdicts_ms, [this] { refreshReadOnly(); }),
+      look_again_(kLookAgain_ms, [this] { searchSoFar(); }) {
     whenChanged(
         session_, this,
         {
@@ -54,6 +62,7 @@ void EventReview::setWanted() {
 void EventReview::setOptions(const EventOptions& options) {
     options_ = options;
     if (key_) search_due_.start();
+    next_look_ = {};
 }
 
 // ---- following the session ------------------------------------------------------------------------------------------
@@ -64,17 +73,18 @@ void EventReview::refresh() {
     const auto current = session_.currentRun();
     if (!data || !current || data->record.id != *current || session_.project().empty()) {
         // Of another run, whose tracks are not yet read, nothing may be shown that is this one's.
-        if (!current || (key_ && (key_->run != *current || key_->project != session_.project()))) close();
+        const bool of_another = (key_ && (key_->run != *current || key_->project != session_.project())) ||
+                                (watched_ && watched_->id != *current);
+        if (!current || of_another) close();
         return;
     }
     const RunKey key{session_.project(), data->record.id, data->frames.size(), ownTracks(*data)};
     const RunRecord* own = session_.ownRun();
     if (data->record.live || (own != nullptr && own->id == data->record.id && session_.running())) {
-        if (state_ == State::at_work) return;
-        close();
-        setState(State::at_work);
+        if (!watched_ || watched_->id != data->record.id) watchRun(data->record);
         return;
     }
+    if (watched_) close();
     if (key_ == key) return;
     const bool other_run = !key_ || key_->project != key.project || key_->run != key.run;
     key_ = key;
@@ -96,8 +106,10 @@ void EventReview::close() {
     search_query_.cancel();
     search_due_.stop();
     reread_.stop();
+    look_again_.stop();
     key_.reset();
     data_.reset();
+    watched_.reset();
     tracks_.reset();
     found_.reset();
     store_.reset();
@@ -168,6 +180,56 @@ void EventReview::search() {
     search_query_.ask(
         work, [this](const QString& message) { fail(message); }, BackgroundQuery::Former::finish);
 }
+
+// ---- while a run works ----------------------------------------------------------------------------------------------
+
+void EventReview::watchRun(const RunRecord& run) {
+    close();
+    watched_ = run;
+    next_look_ = {};
+    setState(State::at_work);
+    // Who watches a live source acts on what happens now; of a file all is there soon.
+    if (session_.liveSource() != nullptr) look_again_.start();
+}
+
+void EventReview::searchSoFar() {
+    if (!watched_ || session_.liveSource() == nullptr || LookClock::now() < next_look_) return;
+    next_look_ = LookClock::time_point::max();  // until this look has ended
+    const auto work = [this, path = session_.project(), run = *watched_,
+                       options = options_](const BackgroundTask& task) {
+        const LookClock::time_point begin = LookClock::now();
+        ProjectFile project = ProjectFile::open(path, ProjectFile::Mode::read_only);
+        const auto tracks = [&] {
+            const Snapshot unchanging(project);  // frames and tracks of the same moment
+            return std::make_shared<const StoredTracks>(readTracks(RunStore(project), run));
+        }();
+        if (task.stop().stop_requested()) return;
+        const auto found = findAndOrder(tracks, options, {});
+        const double seconds = std::chrono::duration<double>(LookClock::now() - begin).count();
+        task.tell([this, found, run_id = run.id, seconds] { adoptSoFar(found, run_id, seconds); });
+    };
+    // What cannot be read now may be at the next look; at the latest the end of the run tells.
+    search_query_.ask(work, [this](const QString&) {
+        next_look_ = LookClock::now() + std::chrono::seconds(static_cast<int>(kBetweenLooks_s));
+    });
+}
+
+void EventReview::adoptSoFar(const std::shared_ptr<const FoundEvents>& found, int run_id, double seconds) {
+    if (!watched_ || watched_->id != run_id) return;
+    const double pause_s = std::max(kBetweenLooks_s, kLooksShare * seconds);
+    // Zero: limits were changed meanwhile, which is to be seen at once.
+    if (next_look_ != LookClock::time_point{})
+        next_look_ = LookClock::now() + std::chrono::milliseconds(static_cast<std::int64_t>(1000 * pause_s));
+    found_ = found;
+    setState(State::at_work);
+}
+
+std::optional<FrameIndex> EventReview::asOf() const {
+    if (!watched_ || !found_) return std::nullopt;
+    return found_->run->footage.last_frame;
+}
+
+// ---- events of a whole run ------------------------------------------------------------------------------------------
 
 void EventReview::adopt(const std::shared_ptr<const FoundEvents>& found, std::uint64_t version) {
     // While they were searched for, another run may have been chosen, or something judged.
@@ -247,7 +309,8 @@ bool EventReview::mayWrite() {
 }
 
 bool EventReview::mayJudge() {
-    return found_ && mayWrite();
+    if (watched_) answers_.tell_notice(tr("events can be judged when the run has ended"));
+    return found_ && !watched_ && mayWrite();
 }
 
 std::vector<Judged> EventReview::judgedAt(const std::vector<std::size_t>& positions) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QObject>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -43,7 +44,7 @@ class EventReview : public QObject {
  public:
     enum class State {
         nothing,    ///< no run
-        at_work,    ///< the run is not done yet
+        at_work,    ///< the run is not done yet; of a live source, what was found so far
         searching,  ///< for the first time in this run
         found,
         failed
@@ -60,8 +61,10 @@ class EventReview : public QObject {
     void setOptions(const EventOptions& options);
 
     State state() const { return state_; }
-    /// Null unless events were found.
+    /// Null unless events were found, or some so far.
     const std::shared_ptr<const FoundEvents>& found() const { return found_; }
+    /// The last frame that was searched while a live source is watched; nothing when the list is that of a whole run.
+    std::optional<FrameIndex> asOf() const;
     std::size_t count() const { return found_ ? found_->queue.size() : 0; }
 
     /// What is said about an event; null: nothing.
@@ -125,6 +128,9 @@ class EventReview : public QObject {
     void close();
     void openStore(int sequence_id);
     void search();
+    void watchRun(const RunRecord& run);
+    void searchSoFar();
+    void adoptSoFar(const std::shared_ptr<const FoundEvents>& found, int run_id, double seconds);
     void adopt(const std::shared_ptr<const FoundEvents>& found, std::uint64_t version);
     void setState(State state);
     void fail(const QString& message);
@@ -146,6 +152,8 @@ class EventReview : public QObject {
     State state_ = State::nothing;
     std::optional<RunKey> key_;
     std::shared_ptr<const RunData> data_;
+    std::optional<RunRecord> watched_;                   ///< the run that is not done yet
+    std::chrono::steady_clock::time_point next_look_{};  ///< at what it found so far
     EventOptions options_;
     std::shared_ptr<const StoredTracks> tracks_;  ///< of the run above, once they were read
     std::uint64_t corrections_made_ = 0;          ///< grows with every change of corrections
@@ -157,6 +165,7 @@ class EventReview : public QObject {
     std::unique_ptr<ReviewStore> store_;
     DelayedCall search_due_;
     RepeatedCall reread_;  ///< what another window judges is read now and then
+    RepeatedCall look_again_;
     BackgroundQuery store_query_;
     BackgroundQuery search_query_;  ///< last: both stop before the rest goes
 };

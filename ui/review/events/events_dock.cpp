@@ -161,8 +161,12 @@ void EventsDock::setActive(bool active) {
 void EventsDock::showEvents() {
     explainNothing();
     const auto& found = review_->found();
-    if (found && found->run != listed_run_) model_->forgetIds();
+    // While a run works it is read again and again; what was found before is the same still.
+    const bool goes_on = listed_so_far_ && review_->asOf();
+    if (found && found->run != listed_run_ && !goes_on) model_->forgetIds();
     listed_run_ = found ? found->run : nullptr;
+    listed_so_far_ = review_->asOf().has_value();
+    panel_->showAsOf(review_->asOf());
     if (review_->state() != EventReview::State::failed) parts_.messages.dismissTopic(kEventsTopic);
     model_->setEvents(found, [this](std::size_t place) { return review_->verdictAt(place); });
     showCounts();
@@ -200,7 +204,11 @@ void EventsDock::explainNothing() {
                    "and more, what matters most first.");
             break;
         case EventReview::State::at_work:
-            text = tr("Events are listed when the run ends.");
+            if (review_->asOf())
+                text = tr("Nothing so far counts as an event with these limits.");
+            else
+                text = parts_.session.liveSource() != nullptr ? tr("Looking for events…")
+                                                              : tr("Events are listed when the run ends.");
             break;
         case EventReview::State::searching:
             text = tr("Looking for events…");
@@ -267,9 +275,12 @@ QString EventsDock::markText(int id) const {
 void EventsDock::enableActions() {
     const WindowActions& actions = parts_.actions;
     const bool any = active_ && review_->count() > 0;
-    for (QAction* action : {actions.next_event, actions.previous_event, actions.next_open_event, actions.relevant,
-                            actions.not_relevant, actions.unsure, actions.take_back, actions.star, actions.note})
+    const bool judgeable = any && !review_->asOf();
+    for (QAction* action : {actions.next_event, actions.previous_event, actions.next_open_event})
         action->setEnabled(any);
+    for (QAction* action :
+         {actions.relevant, actions.not_relevant, actions.unsure, actions.take_back, actions.star, actions.note})
+        action->setEnabled(judgeable);
     bookmarks_->enableActions(active_);
     correcting_->enableActions();
     actions.undo_verdict->setEnabled(active_ && review_->canUndo());

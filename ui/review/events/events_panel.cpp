@@ -5,6 +5,7 @@
 #include <QHBoxLayout>
 #include <QKeyEvent>
 #include <QLabel>
+#include <QLocale>
 #include <QMenu>
 #include <QTableView>
 #include <QToolButton>
@@ -221,6 +222,12 @@ void EventsPanel::showSeen(std::optional<double> share) {
     showHeader();
 }
 
+void EventsPanel::showAsOf(std::optional<FrameIndex> frame) {
+    if (frame == as_of_) return;
+    as_of_ = frame;
+    showHeader();
+}
+
 QString EventsPanel::countedText() const {
     const int all = events_->rowCount();
     int judged = 0;
@@ -233,6 +240,12 @@ QString EventsPanel::countedText() const {
         const bool passes = passesQuery(entry);
         listed += passes ? 1 : 0;
         hidden_by_query += passes ? 0 : 1;
+    }
+    if (as_of_) {
+        QString so_far = tr("As of frame %1").arg(QLocale().toString(*as_of_));
+        if (all > 0) so_far += tr(" · to be judged when the run has ended");
+        if (listed < all) so_far += tr(" · %1 of %2 shown").arg(listed).arg(all);
+        return so_far;
     }
     if (all == 0) return {};
     QString text = tr("%1 of %2 judged").arg(judged).arg(all);

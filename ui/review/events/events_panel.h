@@ -56,10 +56,12 @@ class EventsPanel : public TablePanel {
     /// Counts kinds and verdicts anew; `left`: verdicts without an event in this run; `corrections`: what could not be
     /// carried over to it of what was done to tracks, for people.
     void showCounts(std::size_t left, const QStringList& corrections = {});
+    /// The list is that of a run that works still, up to this frame; nothing: of a whole run.
+    void showAsOf(std::optional<FrameIndex> frame);
     /// The share of the run's frames that was watched, 0 … 1; nothing: not known.
     void showSeen(std::optional<double> share);
     /// "214 of 380 judged", "61 % of the time seen", "38 of 380 shown", "12 hidden by the filter on tracks" and what
-    /// could not be carried over.
+    /// could not be carried over; "as of frame 1,234" of a run that works still.
     QString headerText() const;
     /// Whether an event is listed by kind, verdict and the query; words in the filter line are not asked.
     bool isListed(const EventEntry& entry) const;
@@ -116,6 +118,7 @@ class EventsPanel : public TablePanel {
     std::size_t left_ = 0;
     QStringList left_corrections_;
     std::optional<double> seen_;
+    std::optional<FrameIndex> as_of_;
 };
 
 }  // namespace eyrie::ui

@@ -178,10 +178,8 @@ void ReportWriter::write(WantedReport wanted) {
     if (working_) return;
     working_ = true;
     const auto work = [this, wanted = std::move(wanted)](const BackgroundTask& task) {
-        const bool pdf = QFileInfo(QString::fromStdString(wanted.path.string()))
-                             .suffix()
-                             .compare(QStringLiteral("pdf"), Qt::CaseInsensitive) == 0;
-        filesToReplace({{wanted.path, pdf ? FileKind::pdf : FileKind::html}}, wanted.read);
+        const FileKind kind = kindOfReport(wanted.path);
+        filesToReplace({{wanted.path, kind}}, wanted.read);
         std::unique_ptr<FrameSource> pixels;
         try {
             if (wanted.media) pixels = wanted.media->open({}, task.stop());
@@ -197,7 +195,7 @@ void ReportWriter::write(WantedReport wanted) {
             });
             return;
         }
-        if (pdf)
+        if (kind == FileKind::pdf)
             writePdfReport(wanted.path, report);
         else
             writeHtmlReport(wanted.path, report);

@@ -52,6 +52,7 @@ void LiveDialog::buildFields() {
     auto* kinds = quietLabel(tr("rtsp://name:password@camera/stream   a camera that sends on request\n"
                                 "udp://@239.0.0.1:5000   a transport stream sent to a group\n"
                                 "udp://0.0.0.0:5000   one that is sent to this machine\n"
+                                "/dev/video0   a camera of this machine\n"
                                 "Also rtp, srt, tcp, http, https and rtmp. Name and password are not kept."),
                              fields_);
     project_ = new QLineEdit(fields_);

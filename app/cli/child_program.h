@@ -2,6 +2,7 @@
 
 #include <sys/types.h>
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,13 +16,17 @@ struct ChildEnd {
     std::string errors;  ///< the last of what it wrote to standard error
 };
 
-/// This program once more as a process of its own, so that a file that brings it down brings down nothing else. It gets
-/// no input; what it prints goes nowhere. It is asked to stop when this process ends, however that ends.
+/// This program's own file, whatever it is called.
+inline constexpr const char* kThisProgram = "/proc/self/exe";
+
+/// This program once more as a process of its own, so that a file that brings it down brings down nothing else; or
+/// another one. It gets no input; what it prints goes nowhere. It is asked to stop when this process ends, however that
+/// ends.
 class ChildProgram {
  public:
     /// `words`: command and arguments. Throws Error(internal) when no process can be made. Only to be called from the
     /// thread that lives as long as the process.
-    explicit ChildProgram(const std::vector<std::string>& words);
+    explicit ChildProgram(const std::vector<std::string>& words, const std::filesystem::path& program = kThisProgram);
     ~ChildProgram();
     ChildProgram(const ChildProgram&) = delete;
     ChildProgram& operator=(const ChildProgram&) = delete;

@@ -1,4 +1,4 @@
-#include "cli/batch/child_program.h"
+#include "cli/child_program.h"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -27,7 +27,7 @@ std::string tailOf(int file) {
 }
 
 /// In the child; only calls that are safe between fork and exec.
-[[noreturn]] void become(char* const* words, int errors, pid_t parent) {
+[[noreturn]] void become(const char* program, char* const* words, int errors, pid_t parent) {
     setpgid(0, 0);  // Ctrl-C at the terminal is for the parent, who passes it on once
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (getppid() != parent) _exit(127);
@@ -38,15 +38,15 @@ std::string tailOf(int file) {
     dup2(nothing, STDIN_FILENO);
     dup2(nothing, STDOUT_FILENO);
     dup2(errors, STDERR_FILENO);
-    execv("/proc/self/exe", words);
+    execv(program, words);
     _exit(127);
 }
 
 }  // namespace
 
-ChildProgram::ChildProgram(const std::vector<std::string>& words) {
+ChildProgram::ChildProgram(const std::vector<std::string>& words, const std::filesystem::path& program) {
     errors_ = memfd_create("errors", MFD_CLOEXEC);
-    std::vector<std::string> kept{"eyrie-cli"};
+    std::vector<std::string> kept{program == kThisProgram ? "eyrie-cli" : program.filename().string()};
     kept.insert(kept.end(), words.begin(), words.end());
     std::vector<char*> pointers;
     for (std::string& word : kept) pointers.push_back(word.data());
@@ -54,7 +54,7 @@ ChildProgram::ChildProgram(const std::vector<std::string>& words) {
     const pid_t parent = getpid();
     signal(SIGCHLD, SIG_DFL);  // who starts us may have it ignored; then nobody learns how a child ended
     process_ = errors_ < 0 ? -1 : fork();
-    if (process_ == 0) become(pointers.data(), errors_, parent);
+    if (process_ == 0) become(program.c_str(), pointers.data(), errors_, parent);
     if (process_ < 0) {
         const std::string reason = std::strerror(errno);
         if (errors_ >= 0) close(errors_);

@@ -1,9 +1,9 @@
-#include "io/live/live_connection.h"
-
+#include <chrono>
 #include <cmath>
 
 #include "core/error.h"
 #include "io/live/live_address.h"
+#include "io/live/live_connection.h"
 
 namespace eyrie {
 namespace {
@@ -15,13 +15,32 @@ std::string secondsText(double seconds) {
     return std::to_string(std::lround(seconds)) + " s";
 }
 
-}  // namespace
+class NetConnection : public LiveConnection {
+ public:
+    NetConnection(const std::string& address, double seconds, const std::stop_token& stop);
 
-LiveConnection::LiveConnection(const std::string& address, double seconds, const std::stop_token& stop) : stop_(stop) {
+    const AVFormatContext& demuxer() const override { return *demuxer_; }
+    int video() const override { return video_; }
+    bool read(AVPacket& packet, double seconds) override;
+    bool wasHeldBack() const override { return std::chrono::steady_clock::now() >= limit_; }
+    bool hasEnded() const override { return has_ended_; }
+
+ private:
+    static int overdue(void* self);
+    void allow(double seconds);
+
+    std::stop_token stop_;
+    std::chrono::steady_clock::time_point limit_;
+    libav::Demuxer demuxer_;
+    int video_ = -1;
+    bool has_ended_ = false;
+};
+
+NetConnection::NetConnection(const std::string& address, double seconds, const std::stop_token& stop) : stop_(stop) {
     av_log_set_level(AV_LOG_QUIET);
     avformat_network_init();
     AVFormatContext* raw = avformat_alloc_context();
-    raw->interrupt_callback = {&LiveConnection::overdue, this};
+    raw->interrupt_callback = {&NetConnection::overdue, this};
     // A receiver that joins in the midst of a stream waits for a key frame; more need not be looked through.
     raw->max_analyze_duration = static_cast<std::int64_t>(seconds * 500'000);
     AVDictionary* options = nullptr;
@@ -49,7 +68,7 @@ LiveConnection::LiveConnection(const std::string& address, double seconds, const
         throw Error(ErrorKind::input, shownAddress(address) + ": carries no video");
 }
 
-bool LiveConnection::read(AVPacket& packet, double seconds) {
+bool NetConnection::read(AVPacket& packet, double seconds) {
     allow(seconds);
     const int got = av_read_frame(demuxer_.get(), &packet);
     // What is made as it is sent has no size, and a broken connection ends like a file but for its error.
@@ -58,13 +77,19 @@ bool LiveConnection::read(AVPacket& packet, double seconds) {
     return got >= 0;
 }
 
-void LiveConnection::allow(double seconds) {
+void NetConnection::allow(double seconds) {
     limit_ = std::chrono::steady_clock::now() + std::chrono::milliseconds(std::llround(seconds * 1000));
 }
 
-int LiveConnection::overdue(void* self) {
-    const auto& connection = *static_cast<LiveConnection*>(self);
+int NetConnection::overdue(void* self) {
+    const auto& connection = *static_cast<NetConnection*>(self);
     return connection.stop_.stop_requested() || std::chrono::steady_clock::now() >= connection.limit_ ? 1 : 0;
+}
+
+}  // namespace
+
+std::unique_ptr<LiveConnection> connectToNet(const std::string& address, double seconds, const std::stop_token& stop) {
+    return std::make_unique<NetConnection>(address, seconds, stop);
 }
 
 }  // namespace eyrie

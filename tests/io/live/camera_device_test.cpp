@@ -1,0 +1,160 @@
+#include "io/live/camera_device.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <thread>
+
+#include "core/error.h"
+#include "io/live/live_stream.h"
+#include "io/numbered_video.h"
+#include "support/temporary_folder.h"
+
+namespace eyrie::camera_device_test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// Sends so many numbered pictures at the pace of a camera, and is pulled out then.
+class PlayedCamera : public CameraDevice {
+ public:
+    PlayedCamera(int first, int pictures, cv::Size size) : next_(first), end_(first + pictures), size_(size) {}
+    bool read(cv::Mat& picture) override {
+        if (next_ == end_) return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        picture = test::numberedImage(next_++, size_);
+        return true;
+    }
+    double frameRate() const override { return 200; }
+
+ private:
+    int next_;
+    int end_;
+    cv::Size size_;
+};
+
+/// What is opened, one after the other; later on there is no camera any more.
+struct Plugged {
+    int first;
+    int pictures;
+    cv::Size size{160, 64};
+};
+
+class CameraStreams : public testing::Test {
+ protected:
+    LiveOptions options(std::vector<Plugged> plugged) {
+        LiveOptions options;
+        options.recording = folder_ / "recorded.ts";
+        options.give_up_s = 1;
+        options.waiting_frames = 1000;
+        options.open_camera = [this, plugged](const std::string& device) -> std::unique_ptr<CameraDevice> {
+            opened_ = device;
+            const std::size_t turn = turn_++;
+            if (turn >= plugged.size()) throw Error(ErrorKind::input, device + ": there is no such camera");
+            return std::make_unique<PlayedCamera>(plugged[turn].first, plugged[turn].pictures, plugged[turn].size);
+        };
+        return options;
+    }
+    static std::vector<int> numbersOf(FrameSource& source) {
+        std::vector<int> numbers;
+        try {
+            for (FrameIndex frame = 0; frame < source.info().frame_count; ++frame)
+                numbers.push_back(test::numberIn(source.read(frame, false).gray));
+        } catch (const StreamEnded&) {
+        }
+        return numbers;
+    }
+    std::vector<int> recorded() const {
+        return numbersOf(*openSource(folder_ / "recorded.ts", {.index_folder = folder_ / "index"}));
+    }
+    static std::vector<int> numbersFrom(int first, int count) {
+        std::vector<int> numbers(static_cast<std::size_t>(count));
+        for (int i = 0; i < count; ++i) numbers[static_cast<std::size_t>(i)] = first + i;
+        return numbers;
+    }
+    test::TemporaryFolder folder_;
+    std::string opened_;  ///< by the thread that receives
+    std::atomic<std::size_t> turn_{0};
+};
+
+TEST_F(CameraStreams, EveryPictureIsAFrameOfTheRunAndOfTheRecording) {
+    LiveStream stream("camera:3", options({{0, 40}}), {});
+    EXPECT_EQ(stream.info().size, cv::Size(160, 64));
+    EXPECT_NEAR(stream.info().frame_rate_hz, 200, 0.1);
+    EXPECT_EQ(numbersOf(stream), numbersFrom(0, 40));
+    EXPECT_EQ(recorded(), numbersFrom(0, 40));
+    EXPECT_THAT(stream.facts().ended, AllOf(HasSubstr("no picture came for 1 s"), HasSubstr("no such camera")));
+    stream.finish();
+    EXPECT_EQ(opened_, "/dev/video3");
+}
+
+TEST_F(CameraStreams, ACameraThatIsConnectedAgainGoesOnInTheSameRecording) {
+    LiveStream stream("/dev/video0", options({{0, 20}, {500, 20}}), {});
+    std::vector<int> expected = numbersFrom(0, 20);
+    for (const int number : numbersFrom(500, 20)) expected.push_back(number);
+    EXPECT_EQ(numbersOf(stream), expected);
+    EXPECT_EQ(recorded(), expected);
+    EXPECT_EQ(stream.facts().reconnects, 1);
+}
+
+TEST_F(CameraStreams, PicturesOfAnotherSizeEndIt) {
+    LiveStream stream("/dev/video0", options({{0, 20}, {500, 20, {320, 128}}}), {});
+    EXPECT_EQ(numbersOf(stream), numbersFrom(0, 20));
+    EXPECT_THAT(stream.facts().ended, HasSubstr("changed from 160×64 px to 320×128 px"));
+}
+
+TEST_F(CameraStreams, WhatKeepsACameraFromBeingOpenedIsToldAndNothingIsRecorded) {
+    EXPECT_THAT(test::messageOf(ErrorKind::input, [&] { LiveStream("/dev/video0", options({}), {}); }),
+                HasSubstr("/dev/video0: there is no such camera"));
+    EXPECT_THAT(test::messageOf(ErrorKind::input,
+                                [&] {
+                                    LiveStream("/dev/video0", options({{0, 0}}), {});
+                                }),
+                HasSubstr("/dev/video0: no picture came"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "recorded.ts"));
+}
+
+TEST_F(CameraStreams, EndingItKeepsWhatCame) {
+    std::stop_source stop;
+    LiveStream stream("/dev/video0", options({{0, 1000}}), stop.get_token());
+    std::vector<int> numbers;
+    try {
+        for (FrameIndex frame = 0;; ++frame) {
+            numbers.push_back(test::numberIn(stream.read(frame, false).gray));
+            if (frame == 20) stop.request_stop();
+        }
+    } catch (const StreamEnded&) {
+    }
+    stream.finish();
+    EXPECT_GE(numbers.size(), 21U);
+    EXPECT_LT(numbers.size(), 1000U);
+    EXPECT_EQ(recorded(), numbers);
+}
+
+TEST(Cameras, WhatIsNoneIsNamedWithTheRemedy) {
+    const test::TemporaryFolder folder;
+    test::writeBytes(folder / "file", "no camera");
+    const std::string file = (folder / "file").string();
+    EXPECT_THAT(test::messageOf(ErrorKind::input, [] { openCamera("/dev/no-such-camera"); }),
+                AllOf(HasSubstr("/dev/no-such-camera: there is no such camera"), HasSubstr("camera")));
+    EXPECT_THAT(test::messageOf(ErrorKind::input, [] { openCamera("/dev/null"); }),
+                AllOf(HasSubstr("/dev/null: this device is no camera; "),
+                      testing::AnyOf(HasSubstr("cameras that are here: /dev/video"), HasSubstr("connect one"))));
+    EXPECT_THAT(test::messageOf(ErrorKind::input, [&] { openCamera(file); }),
+                HasSubstr(file + ": this is no camera, nor any other device"));
+    EXPECT_THAT(test::messageOf(ErrorKind::input, [&] { openCamera((folder / "").string()); }),
+                HasSubstr("this is no camera"));
+}
+
+TEST(Cameras, WhatIsBusyOrForbiddenIsToldWithTheRemedy) {
+    EXPECT_THAT(whyNoCamera(EBUSY), AllOf(HasSubstr("another program uses this camera"), HasSubstr("close it")));
+    EXPECT_THAT(whyNoCamera(EACCES), AllOf(HasSubstr("you may not use"), HasSubstr("group video")));
+    EXPECT_THAT(whyNoCamera(EIO), HasSubstr("connect it again"));
+}
+
+}  // namespace
+}  // namespace eyrie::camera_device_test
