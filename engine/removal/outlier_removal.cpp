@@ -20,6 +20,25 @@ bool whollyInImage(const OrientedBox& box, cv::Size image) {
            top + around.width <= image.height - 1 + kImageEdge;
 }
 
+/// The parameter that says so many vectors are needed.
+const char* parameterOfNeeded(int needed, const OutlierRemovalOptions& options) {
+    return needed > options.min_vectors ? "outliers.min_density_share" : "outliers.min_vectors";
+}
+
+/// Judges a detection by the vectors it has.
+RemovalVerdict judgeSupportAndSize(const Detection& detection, const FrameMotion& motion,
+                                   const OutlierRemovalOptions& options, const SceneScale& scale) {
+    const int needed = vectorsNeeded(motion, options, scale.at(detection.box.centre));
+    const auto count = static_cast<int>(detection.vectors.size());
+    RemovalVerdict verdict{Rejection::none, parameterOfNeeded(needed, options), 1.0 * count, 1.0 * needed, false};
+    if (count < needed) {
+        verdict.rejection = Rejection::outlier;
+    } else if (const auto broken = brokenSizeLimit(detection.box, options, scale, motion.image_size)) {
+        verdict = {Rejection::size, broken->parameter, broken->value, broken->limit, broken->at_most};
+    }
+    return verdict;
+}
+
 }  // namespace
 
 std::optional<BrokenLimit> brokenSizeLimit(const OrientedBox& box, const OutlierRemovalOptions& options,
@@ -84,6 +103,12 @@ int vectorsNeeded(const FrameMotion& motion, const OutlierRemovalOptions& option
     return std::max(options.min_vectors, by_density);
 }
 
+RemovalVerdict whyRemoved(const Detection& detection, const FrameMotion& motion, const OutlierRemovalOptions& options,
+                          const SceneScale& scale) {
+    const RemovalVerdict verdict = judgeSupportAndSize(detection, motion, options, scale);
+    return verdict.rejection == detection.rejection ? verdict : RemovalVerdict{detection.rejection, {}, 0, 0, false};
+}
+
 std::vector<Detection> removeOutliers(std::vector<Detection> detections, const FrameMotion& motion,
                                       const OutlierRemovalOptions& options, const SceneScale& scale) {
     const double density = cornerDensity(motion);
@@ -94,7 +119,6 @@ std::vector<Detection> removeOutliers(std::vector<Detection> detections, const F
         if (detection.rejection != Rejection::none) continue;
         measureSupport(detection, motion, rule);
         const SceneScale here = scale.at(detection.box.centre);
-        const auto needed = static_cast<std::size_t>(vectorsNeeded(motion, options, here));
         if (!(detection.score > 0)) {
             const double car = carArea(here);
             // Boxes much smaller or larger than a car must not look surer or less sure for that alone.
@@ -102,11 +126,7 @@ std::vector<Detection> removeOutliers(std::vector<Detection> detections, const F
             const double expected = std::max(1.0, density * area);
             detection.score = static_cast<double>(detection.vectors.size()) / expected;
         }
-        if (detection.vectors.size() < needed) {
-            detection.rejection = Rejection::outlier;
-        } else if (brokenSizeLimit(detection.box, options, scale, motion.image_size)) {
-            detection.rejection = Rejection::size;
-        }
+        detection.rejection = judgeSupportAndSize(detection, motion, options, scale).rejection;
     }
     return detections;
 }

@@ -36,6 +36,11 @@ int vectorsNeeded(const FrameMotion& motion, const OutlierRemovalOptions& option
 std::optional<BrokenLimit> brokenSizeLimit(const OrientedBox& box, const OutlierRemovalOptions& options,
                                            const SceneScale& scale, cv::Size image = {});
 
+/// Why a detection that removeOutliers() has been over was rejected, or how many vectors kept it. Says `rejection` and
+/// no more where something else rejected it: it is a duplicate, or the run had other rules than these.
+RemovalVerdict whyRemoved(const Detection& detection, const FrameMotion& motion, const OutlierRemovalOptions& options,
+                          const SceneScale& scale);
+
 /// Rejects detections without enough motion vectors inside, of an impossible size, or (if wanted) not wholly in
 /// the image; they stay in the list with
 /// Rejection::outlier or Rejection::size. Sets vectors and velocity from the vectors inside, and the score of

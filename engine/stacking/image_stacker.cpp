@@ -273,7 +273,7 @@ std::vector<MotionRoi> ImageStacker::replace(const MotionCluster& cluster, int c
         const double turn = std::abs(turnBetween(pose.heading, cluster.box.heading));
         if (difference > options_.max_speed_difference * std::max(speed, 1e-6)) continue;
         if (turn > radiansFromDegrees(options_.max_turn_degrees)) continue;
-        if (!cluster.box.contains(pose.position) || entry.stack.height() < options_.min_height) continue;
+        if (!cluster.box.contains(pose.position) || !entry.isSearched(options_)) continue;
 
         const cv::Matx23d image_from_stack = imageFromPatch(stackArea(pose, area_), area_);
         std::vector<cv::Point2d> corners;
@@ -333,7 +333,13 @@ std::vector<StackView> ImageStacker::views(const Frame& frame, StackPictures pic
     std::vector<const Entry*> shown;
     for (const auto& entry : entries_) {
         if (entry.stack.height() == 0) continue;
-        views.push_back({entry.master.id(), entry.master.pose(), entry.stack.height(), entry.master.related(), {}, {}});
+        views.push_back({entry.master.id(),
+                         entry.master.pose(),
+                         entry.stack.height(),
+                         entry.isSearched(options_),
+                         entry.master.related(),
+                         {},
+                         {}});
         shown.push_back(&entry);
     }
     const cv::Rect part = shownPart(pictures);

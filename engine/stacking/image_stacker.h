@@ -53,6 +53,7 @@ struct StackView {
     int id = 0;
     MasterPose pose;
     int height = 0;
+    bool searched = false;  ///< high enough to be searched in place of the raw image
     std::vector<CornerId> related;
     cv::Mat stacked;  ///< CV_8UC1 upright; empty without pictures
     cv::Mat raw;      ///< CV_8UC1 upright, the same part of the current frame; empty without pictures
@@ -85,6 +86,8 @@ class ImageStacker {
 
  private:
     struct Entry {
+        bool isSearched(const StackingOptions& options) const { return stack.height() >= options.min_height; }
+
         MasterVector master;
         ImageStack stack;
 
