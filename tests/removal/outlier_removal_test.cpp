@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <opencv2/core.hpp>
 
 #include "core/geometry/angle.h"
 #include "removal/vectors_in_boxes.h"
