@@ -63,7 +63,7 @@ OutlierRemovalOptions OutlierRemovalOptions::thesis() {
     OutlierRemovalOptions options;
     options.min_vectors = 4;
     options.min_density_share = 0;
-    options.vector_margin_px = 0;
+    options.vector_margin = 0;
     options.compare_velocity = false;
     options.min_length_m = 0;
     options.max_length_m = 0;
@@ -83,7 +83,7 @@ void OutlierRemovalOptions::describe(ParameterVisitor& visitor) {
                   ""});
     declare.integer("outliers.max_min_vectors", max_min_vectors, 0, 1000,
                     {"vectors", "However dense the corners are, that many vectors are enough.", ""});
-    declare.real("outliers.vector_margin", vector_margin_px, 0, 10,
+    declare.real("outliers.vector_margin", vector_margin, 0, 10,
                  {"px", "Motion vectors up to this far outside a box count as inside: corners lie on outlines.",
                   "Teutsch §5.5.2"});
     declare.flag("outliers.compare_velocity", compare_velocity,
@@ -113,7 +113,7 @@ std::vector<Detection> removeOutliers(std::vector<Detection> detections, const F
                                       const OutlierRemovalOptions& options, const SceneScale& scale) {
     const double density = cornerDensity(motion);
     SupportRule rule;
-    rule.margin_px = options.vector_margin_px;
+    rule.margin_px = options.vector_margin;
     rule.compare_velocity = options.compare_velocity;
     for (Detection& detection : detections) {
         if (detection.rejection != Rejection::none) continue;

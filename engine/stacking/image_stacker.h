@@ -33,7 +33,7 @@ struct StackingOptions {
     double area_width_m = 39.7;          ///< 115 px at 0.345 m/px
     int neighbours = 3;                  ///< k of the k-NN vote
     double max_speed_difference = 0.25;  ///< of the cluster's speed
-    double max_turn_degrees = 20;
+    double max_turn_deg = 20;
     double vehicle_length_m = kCarLength_m;  ///< for k of k-means
 
     void describe(ParameterVisitor& visitor);
