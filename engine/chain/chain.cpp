@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "core/values/stopwatch.h"
-#include "detection/detector_factory.h"
 #include "detection/detector_table.h"
 #include "detection/roi_cutter.h"
 #include "removal/detection_probability.h"
@@ -41,7 +40,7 @@ TrackHalf::TrackHalf(const ChainOptions& options, const SceneScale& scale)
     : options_(options),
       scale_(scale),
       clustering_(options.clustering, scale),
-      detector_(makeDetector(options.detection, scale)),
+      search_(options.detection, scale),
       tracker_(options.tracking, scale) {
     if (options.difference.method != MotionMethod::vectors)
         difference_ = std::make_unique<DifferenceMotion>(options.difference, scale);
@@ -62,11 +61,11 @@ ClusteringTrace TrackHalf::clustering(const FrameMotion& motion) const {
 std::vector<SearchTrace> TrackHalf::trace(const Frame& frame, const FrameMotion& motion, const MotionCluster& cluster,
                                           int index) const {
     std::vector<SearchTrace> traces;
-    for (MotionRoi& roi : searchAreas(frame, motion, cluster, index, stackedAreas(frame, motion, cluster, index))) {
+    for (MotionRoi& roi : search_.areasOf(frame, motion, cluster, index, stackedAreas(frame, motion, cluster, index))) {
         SearchTrace traced;
         traced.roi = std::move(roi);
         traced.raw = cutMotionRoi(frame, cluster, index, motion, options_.detection, scale_);
-        traced.detections = detector_->detect(traced.roi, &traced.trace);
+        traced.detections = search_.detector().detect(traced.roi, &traced.trace);
         traces.push_back(std::move(traced));
     }
     return traces;
@@ -85,13 +84,6 @@ std::vector<MotionRoi> TrackHalf::stackedAreas(const Frame& frame, const FrameMo
     return stacker_->replace(cluster, index, extended, motion);
 }
 
-std::vector<MotionRoi> TrackHalf::searchAreas(const Frame& frame, const FrameMotion& motion,
-                                              const MotionCluster& cluster, int index,
-                                              std::vector<MotionRoi> stacked) const {
-    if (!stacked.empty()) return stacked;
-    return {cutMotionRoi(frame, cluster, index, motion, options_.detection, scale_)};
-}
-
 std::vector<std::vector<MotionRoi>> TrackHalf::stackedAreas(const Frame& frame, const FrameMotion& motion,
                                                             const std::vector<MotionCluster>& clusters) const {
     std::vector<std::vector<MotionRoi>> stacked(clusters.size());
@@ -102,29 +94,6 @@ std::vector<std::vector<MotionRoi>> TrackHalf::stackedAreas(const Frame& frame, 
         }
     });
     return stacked;
-}
-
-std::vector<Detection> TrackHalf::detect(const Frame& frame, const FrameMotion& motion,
-                                         const std::vector<MotionCluster>& clusters,
-                                         std::vector<std::vector<MotionRoi>> stacked,
-                                         std::vector<OrientedBox>& rois) const {
-    std::vector<std::vector<Detection>> per_cluster(clusters.size());
-    rois.resize(clusters.size());
-    // Written by index, so that the result does not depend on the number of threads.
-    cv::parallel_for_(cv::Range(0, static_cast<int>(clusters.size())), [&](const cv::Range& range) {
-        for (int i = range.start; i < range.end; ++i) {
-            const auto at = static_cast<std::size_t>(i);
-            for (const MotionRoi& roi : searchAreas(frame, motion, clusters[at], i, std::move(stacked[at]))) {
-                rois[at] = roi.box;
-                for (Detection& detection : detector_->detect(roi)) per_cluster[at].push_back(std::move(detection));
-            }
-        }
-    });
-    std::vector<Detection> all;
-    for (auto& found : per_cluster) {
-        for (auto& detection : found) all.push_back(std::move(detection));
-    }
-    return all;
 }
 
 void TrackHalf::remember(const Frame& frame, const FrameMotion& motion) {
@@ -138,7 +107,7 @@ FrameResult TrackHalf::next(const Frame& frame, FrameMotion motion, StageTimes t
         const Stopwatch watch(times, Stage::clustering);
         result.clusters = findClusters(frame, result.motion);
     }
-    std::vector<std::vector<MotionRoi>> stacked(result.clusters.size());
+    std::vector<std::vector<MotionRoi>> stacked;
     if (stacker_) {
         const Stopwatch watch(times, Stage::stacking);
         stacker_->update(frame, result.motion, result.clusters);
@@ -148,7 +117,9 @@ FrameResult TrackHalf::next(const Frame& frame, FrameMotion motion, StageTimes t
     }
     {
         const Stopwatch watch(times, Stage::detection);
-        result.detections = detect(frame, result.motion, result.clusters, std::move(stacked), result.rois);
+        ClusterSearch::Found found = search_.search(frame, result.motion, result.clusters, std::move(stacked));
+        result.detections = std::move(found.detections);
+        result.rois = std::move(found.rois);
     }
     {
         const Stopwatch watch(times, Stage::removal);

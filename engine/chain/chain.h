@@ -8,7 +8,7 @@
 #include "chain/chain_options.h"
 #include "core/values/frame.h"
 #include "core/values/frame_result.h"
-#include "detection/detector.h"
+#include "detection/cluster_search.h"
 #include "motion/differences/difference_motion.h"
 #include "tracking/live_scores.h"
 
@@ -82,11 +82,6 @@ class TrackHalf {
     /// The same of every cluster.
     std::vector<std::vector<MotionRoi>> stackedAreas(const Frame& frame, const FrameMotion& motion,
                                                      const std::vector<MotionCluster>& clusters) const;
-    std::vector<MotionRoi> searchAreas(const Frame& frame, const FrameMotion& motion, const MotionCluster& cluster,
-                                       int index, std::vector<MotionRoi> stacked) const;
-    std::vector<Detection> detect(const Frame& frame, const FrameMotion& motion,
-                                  const std::vector<MotionCluster>& clusters,
-                                  std::vector<std::vector<MotionRoi>> stacked, std::vector<OrientedBox>& rois) const;
 
     ChainOptions options_;
     SceneScale scale_;
@@ -94,7 +89,7 @@ class TrackHalf {
     std::unique_ptr<DifferenceMotion> difference_;  ///< null: clusters come from motion vectors
     DifferenceResult last_difference_;
     std::unique_ptr<ImageStacker> stacker_;  ///< null: no stacking
-    std::unique_ptr<Detector> detector_;
+    ClusterSearch search_;
     Tracker tracker_;
     std::optional<LiveScores> scores_;  ///< nothing: no classifier takes part
     RemovalTrace removal_;

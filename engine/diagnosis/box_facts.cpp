@@ -1,37 +1,18 @@
 #include "diagnosis/box_facts.h"
 
 #include <algorithm>
-#include <map>
 
 #include "motion/clusters/motion_clustering.h"
+#include "motion/clusters/place_contents.h"
+#include "removal/outlier_removal.h"
 
 namespace eyrie {
 namespace {
 
-constexpr double kMargin = 1;     ///< px; corners lie on outlines
 constexpr double kCovered = 0.5;  ///< share of the box
 
 void keepBest(NearBox& best, std::size_t index, double overlap) {
     if (overlap > best.overlap) best = {static_cast<int>(index), overlap};
-}
-
-/// Clusters in the order of how many of their points lie in the box.
-std::vector<int> clustersIn(const OrientedBox& box, const FrameResult& result) {
-    std::vector<std::pair<int, int>> found;  // −points, cluster
-    for (std::size_t i = 0; i < result.clusters.size(); ++i) {
-        const MotionCluster& cluster = result.clusters[i];
-        int points = 0;
-        for (const int member : cluster.members)
-            points += box.contains(result.motion.motion_vectors[static_cast<std::size_t>(member)].position, kMargin);
-        for (const cv::Point2f& point : cluster.moving_points) points += box.contains(point, kMargin);
-        // The points of difference images are not stored; their box is.
-        if (cluster.members.empty() && cluster.moving_points.empty()) points = intersectionArea(box, cluster.box) > 0;
-        if (points > 0) found.emplace_back(-points, static_cast<int>(i));
-    }
-    std::sort(found.begin(), found.end());
-    std::vector<int> clusters;
-    for (const auto& entry : found) clusters.push_back(entry.second);
-    return clusters;
 }
 
 }  // namespace
@@ -55,19 +36,16 @@ BoxFacts FrameFacts::at(const OrientedBox& box) {
         const Homography& step = motion.registration.current_from_previous;
         facts.flow = step.apply(box.centre) - box.centre;
     }
-    std::vector<int> vectors;
-    for (std::size_t i = 0; i < motion.motion_vectors.size(); ++i) {
-        const MotionVector& vector = motion.motion_vectors[i];
-        if (!box.contains(vector.position, kMargin)) continue;
-        vectors.push_back(static_cast<int>(i));
-        ++facts.motion_vectors;
-        facts.velocity += cv::Point2d(vector.velocity);
-    }
+    const std::vector<int> vectors = vectorsAtPlace(box, motion);
+    facts.motion_vectors = static_cast<int>(vectors.size());
+    for (const int index : vectors)
+        facts.velocity += cv::Point2d(motion.motion_vectors[static_cast<std::size_t>(index)].velocity);
     if (facts.motion_vectors > 0) facts.velocity /= facts.motion_vectors;
-    facts.corners = facts.motion_vectors +
-                    static_cast<int>(std::count_if(motion.stationary_corners.begin(), motion.stationary_corners.end(),
-                                                   [&](const cv::Point2f& p) { return box.contains(p, kMargin); }));
-    facts.clusters = clustersIn(box, result);
+    facts.corners =
+        facts.motion_vectors +
+        static_cast<int>(std::count_if(motion.stationary_corners.begin(), motion.stationary_corners.end(),
+                                       [&](const cv::Point2f& p) { return box.contains(p, kOutlineMargin_px); }));
+    facts.clusters = clustersAtPlace(box, motion, result.clusters);
     judgeClustering(facts, vectors);
 
     const auto shown = [this](const OrientedBox& one) { return upright_ ? one.upright() : one; };
@@ -86,8 +64,7 @@ BoxFacts FrameFacts::at(const OrientedBox& box) {
     }
     if (facts.rejected.index >= 0) {
         const Detection& rejected = result.detections[static_cast<std::size_t>(facts.rejected.index)];
-        facts.rejection = rejected.rejection;
-        facts.rejected_vectors = static_cast<int>(rejected.vectors.size());
+        facts.removal = whyRemoved(rejected, motion, options_.outliers, scale_);
     }
     for (std::size_t i = 0; i < result.dropped.size(); ++i)
         keepBest(facts.dropped, i, overlap(place, shown(result.dropped[i].box)));
@@ -96,6 +73,10 @@ BoxFacts FrameFacts::at(const OrientedBox& box) {
         const TrackState& track = result.tracks[i];
         const double shared = overlap(place, shown(track.box));
         keepBest(track.status == TrackStatus::tentative ? facts.tentative : facts.confirmed, i, shared);
+    }
+    if (facts.tentative.index >= 0) {
+        const TrackState& track = result.tracks[static_cast<std::size_t>(facts.tentative.index)];
+        facts.unconfirmed = {track.id, track.box, TrackDrop::unconfirmed, 0};
     }
     return facts;
 }

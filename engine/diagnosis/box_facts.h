@@ -8,6 +8,7 @@
 #include "chain/chain_options.h"
 #include "core/values/frame_result.h"
 #include "motion/clusters/clustering_trace.h"
+#include "removal/removal_trace.h"
 
 namespace eyrie {
 
@@ -29,17 +30,16 @@ struct BoxFacts {
     cv::Point2d velocity;          ///< px/frame, mean of the motion vectors in the box
     ClusteringVerdict clustering;  ///< on the motion vectors in the box, where none of them is in a cluster
     bool by_differences = false;   ///< clusters come from difference images instead
-    std::vector<int> clusters;  /**< indices of the clusters with motion vectors or moving points in the box, those with
-                                   most first */
+    std::vector<int> clusters;  /**< indices of the clusters at the place, those with most motion vectors in it first */
     std::vector<int> covering;  ///< indices of the kept detections that cover half of the box or more
     NearBox kept;               ///< the kept detection that overlaps most
     NearBox rejected;           ///< the rejected one
-    Rejection rejection = Rejection::none;  ///< why
-    int rejected_vectors = 0;               ///< motion vectors in it
-    NearBox dropped;                        ///< the state left out when tracks were finished
-    DroppedState drop;                      ///< that state
-    NearBox tentative;                      ///< the track that was never confirmed so far
-    NearBox confirmed;                      ///< the confirmed or coasting one
+    RemovalVerdict removal;     ///< why
+    NearBox dropped;            ///< the state left out when tracks were finished
+    DroppedState drop;          ///< that state
+    NearBox tentative;          ///< the track that was never confirmed so far
+    DroppedState unconfirmed;   ///< that track, as finishing would leave it out
+    NearBox confirmed;          ///< the confirmed or coasting one
 };
 
 /// Looks places of one frame up. `upright`: enclosing upright boxes are compared, as in the evaluation.

@@ -70,19 +70,31 @@ std::string offText(double overlap, double needed) {
     return "overlap " + number(overlap, 2) + ", " + number(needed, 2) + " is needed";
 }
 
-CauseHere rejectedAs(const BoxFacts& facts) {
-    const std::string vectors = std::to_string(facts.rejected_vectors) + " motion vectors in the box";
-    switch (facts.rejection) {
-        case Rejection::duplicate:
-            return {ErrorCause::removed_duplicate, "a detection here was fused into another"};
-        case Rejection::outlier:
-            return {ErrorCause::removed_outlier, vectors};
-        case Rejection::size:
-            return {ErrorCause::removed_size, ""};
-        case Rejection::none:
-            break;
+/// " (finishing.min_score)", or nothing where no parameter decided.
+std::string by(const std::string& parameter) {
+    return parameter.empty() ? std::string() : " (" + parameter + ")";
+}
+
+CauseHere leftOut(const DroppedState& dropped) {
+    return {causeOf(dropped.why), textOf(dropped) + by(parameterOf(dropped.why))};
+}
+
+/// What removal told of the detection.
+CauseHere removedBy(const RemovalVerdict& verdict) {
+    const bool counted = verdict.rejection == Rejection::outlier;
+    const int decimals = counted ? 0 : 1;
+    std::string text;
+    if (verdict.rejection == Rejection::duplicate) {
+        text = "a detection here was fused into another";
+    } else if (verdict.parameter == "outliers.inside_image") {
+        text = number(100 * verdict.value, 0) + " % of the box is in the picture" + by(verdict.parameter);
+    } else if (!verdict.parameter.empty()) {
+        const char* size_unit = verdict.parameter == "outliers.min_area" ? " px²" : " px";
+        text = number(verdict.value, decimals) + (counted ? " motion vectors" : size_unit) +
+               (verdict.at_most ? ", at most " : ", at least ") + number(verdict.limit, decimals) +
+               by(verdict.parameter);
     }
-    return {};
+    return {causeOf(verdict.rejection), text};
 }
 
 /// What clustering told of motion vectors that are in no cluster.
@@ -93,19 +105,19 @@ CauseHere notClustered(const BoxFacts& facts) {
         return {ErrorCause::not_clustered, vectors + ", but the difference image shows nothing (motion.method)"};
     const std::string linked = std::to_string(verdict.group.size());
     const std::string size = number(verdict.value, 1) + " px";
-    const std::string by = " (" + verdict.parameter + ")";
+    const std::string parameter = by(verdict.parameter);
     switch (verdict.refusal) {
         case ClusterRefusal::too_few:
             return {ErrorCause::too_few_vectors,
-                    linked + " motion vectors, " + std::to_string(verdict.needed) + " make a cluster" + by};
+                    linked + " motion vectors, " + std::to_string(verdict.needed) + " make a cluster" + parameter};
         case ClusterRefusal::not_linked:
-            return {ErrorCause::not_clustered, vectors + ", but only " + linked + " are linked" + by};
+            return {ErrorCause::not_clustered, vectors + ", but only " + linked + " are linked" + parameter};
         case ClusterRefusal::split_off:
-            return {ErrorCause::not_clustered, "left over when a cluster of " + size + " was split" + by};
+            return {ErrorCause::not_clustered, "left over when a cluster of " + size + " was split" + parameter};
         case ClusterRefusal::too_long:
-            return {ErrorCause::not_clustered, "linked motion vectors are " + size + " long" + by};
+            return {ErrorCause::not_clustered, "linked motion vectors are " + size + " long" + parameter};
         case ClusterRefusal::too_wide:
-            return {ErrorCause::not_clustered, "linked motion vectors are " + size + " wide" + by};
+            return {ErrorCause::not_clustered, "linked motion vectors are " + size + " wide" + parameter};
         case ClusterRefusal::not_finite:
         case ClusterRefusal::none:
             break;
@@ -116,18 +128,15 @@ CauseHere notClustered(const BoxFacts& facts) {
 /// What the stages before tracking tell of a missed object.
 CauseHere stageThatLost(const BoxFacts& facts, const ErrorEvidence& evidence) {
     const double needed = evidence.min_overlap;
-    if (facts.tentative.overlap >= needed) return {ErrorCause::tentative, ""};
-    if (facts.dropped.overlap >= needed) {
-        const bool unconfirmed = facts.drop.why == TrackDrop::unconfirmed;
-        return {unconfirmed ? ErrorCause::tentative : ErrorCause::track_dropped,
-                textOf(facts.drop) + " (" + parameterOf(facts.drop.why) + ")"};
-    }
+    if (facts.tentative.overlap >= needed) return leftOut(facts.unconfirmed);
+    if (facts.dropped.overlap >= needed) return leftOut(facts.drop);
     if (facts.kept.overlap >= needed)
         return {ErrorCause::not_associated, "a detection overlaps it by " + number(facts.kept.overlap, 2)};
-    if (facts.rejected.overlap >= needed) return rejectedAs(facts);
+    if (facts.rejected.overlap >= needed) return removedBy(facts.removal);
     if (facts.kept.overlap >= kNearMiss * needed && facts.kept.overlap > 0)
         return {ErrorCause::box_off, "detection: " + offText(facts.kept.overlap, needed)};
-    if (facts.registration == RegistrationState::failed) return {ErrorCause::unregistered, describe(facts.failure)};
+    if (facts.registration == RegistrationState::failed)
+        return {ErrorCause::unregistered, describe(facts.failure) + by(parameterOf(facts.failure))};
     if (!facts.clusters.empty())
         return {ErrorCause::not_detected, std::to_string(facts.motion_vectors) + " motion vectors in a cluster"};
     if (facts.motion_vectors > 0) return notClustered(facts);
@@ -193,6 +202,24 @@ std::optional<CauseHere> relationToTruth(const BoxRecord& alarm, const ErrorEvid
 }
 
 }  // namespace
+
+ErrorCause causeOf(Rejection rejection) {
+    switch (rejection) {
+        case Rejection::duplicate:
+            return ErrorCause::removed_duplicate;
+        case Rejection::outlier:
+            return ErrorCause::removed_outlier;
+        case Rejection::size:
+            return ErrorCause::removed_size;
+        case Rejection::none:
+            break;
+    }
+    return ErrorCause::unknown;
+}
+
+ErrorCause causeOf(TrackDrop why) {
+    return why == TrackDrop::unconfirmed ? ErrorCause::tentative : ErrorCause::track_dropped;
+}
 
 CauseHere causeOfMiss(const ErrorPlace& place, const ErrorEvidence& evidence) {
     if (evidence.in_split) return {ErrorCause::split, ""};

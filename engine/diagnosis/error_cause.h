@@ -76,6 +76,11 @@ struct CauseHere {
     std::string text;  ///< "2 motion vectors, 6 are needed for a cluster"; may be empty
 };
 
+/// The cause that a detection was rejected for such a reason; `unknown` where it was kept.
+ErrorCause causeOf(Rejection rejection);
+/// The cause that a track was left out for such a reason.
+ErrorCause causeOf(TrackDrop why);
+
 /// Misses: the last stage that still had the object decides.
 CauseHere causeOfMiss(const ErrorPlace& place, const ErrorEvidence& evidence);
 CauseHere causeOfFalseAlarm(const ErrorPlace& place, const ErrorEvidence& evidence);

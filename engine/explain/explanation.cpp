@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "explain/explanation_steps.h"
+#include "motion/clusters/place_contents.h"
 
 namespace eyrie {
 namespace explaining {
@@ -15,8 +16,6 @@ namespace {
 int ageNeeded(const Story& story) {
     return story.options.motion.atRate(story.scale.frame_rate_hz).min_age;
 }
-
-constexpr double kSamePlace = 0.2;  ///< overlap from which two boxes mean the same thing
 
 /// The parameter's value with its unit, "3 vectors".
 std::string settingOf(const ChainOptions& options, const std::string& name) {
@@ -172,14 +171,15 @@ void Story::fail(const char* stage, const std::string& text, const std::string& 
     told.steps.push_back({stage, StepVerdict::failed, text, parameter});
 }
 
-void Story::decide(const std::string& sentence, const std::string& parameter) {
-    if (decided) return;
+bool Story::decide(const std::string& sentence, const std::string& parameter) {
+    if (decided) return false;
     decided = true;
     told.parameter = parameter;
     if (!parameter.empty()) told.setting = settingOf(options, parameter);
     told.sentence = sentence;
     if (!parameter.empty()) told.sentence += ": " + parameter + (told.setting.empty() ? "" : " = " + told.setting);
     told.sentence += ".";
+    return true;
 }
 
 std::string Story::speedText(double px_per_frame) const {
@@ -194,10 +194,6 @@ std::string Story::lengthText(double px) const {
     return text;
 }
 
-bool atPlace(const OrientedBox& box, const OrientedBox& area) {
-    return box.contains(area.centre) || area.contains(box.centre) || overlap(box, area) >= kSamePlace;
-}
-
 bool tellRegistration(Story& story) {
     const Registration& registration = story.evidence.result.motion.registration;
     switch (registration.state) {
@@ -207,9 +203,9 @@ bool tellRegistration(Story& story) {
             return false;
         case RegistrationState::failed: {
             const std::string why = describe(registration.failure);
-            const bool counted = registration.failure.of > 0;
-            story.fail("registration", "not registered: " + why, "registration.min_inliers");
-            story.decide("The frame could not be registered (" + why + ")", counted ? "registration.min_inliers" : "");
+            const std::string parameter = parameterOf(registration.failure);
+            story.fail("registration", "not registered: " + why, parameter);
+            story.decide("The frame could not be registered (" + why + ")", parameter);
             return false;
         }
         case RegistrationState::frozen:
@@ -229,19 +225,17 @@ bool tellRegistration(Story& story) {
 bool tellCorners(Story& story) {
     const PlaceEvidence& evidence = story.evidence;
     const FrameMotion& motion = evidence.result.motion;
-    std::size_t vectors = 0;
-    for (const MotionVector& vector : motion.motion_vectors)
-        vectors += evidence.area.contains(vector.position, kCornerMargin);
+    const std::size_t vectors = vectorsAtPlace(evidence.area, motion).size();
     std::vector<const CornerVerdict*> corners;
     std::size_t found = vectors;
     if (evidence.corners) {
         for (const CornerVerdict& verdict : *evidence.corners) {
-            if (evidence.area.contains(verdict.position, kCornerMargin)) corners.push_back(&verdict);
+            if (evidence.area.contains(verdict.position, kOutlineMargin_px)) corners.push_back(&verdict);
         }
         found = std::max(found, corners.size());
     } else {
         for (const cv::Point2f& corner : motion.stationary_corners)
-            found += evidence.area.contains(corner, kCornerMargin);
+            found += evidence.area.contains(corner, kOutlineMargin_px);
     }
     if (found == 0) {
         const int most = story.options.registration.corners.max_corners;
@@ -288,13 +282,16 @@ OrientedBox placeAt(cv::Point2d point, const SceneScale& scale) {
 Explanation explain(const PlaceEvidence& evidence, const ChainOptions& options, const SceneScale& scale) {
     using namespace explaining;
     Story story{evidence, options, scale, scale.at(evidence.area.centre)};
+    // The last stage that had the object decides: what finishing left out had passed all those before.
+    const auto left_out = leftOutAt(evidence);
+    if (left_out) decideLeftOut(story, *left_out);
     std::vector<int> clusters;
     std::vector<int> detections;
     const bool detected = tellRegistration(story) && tellCorners(story) && tellClusters(story, clusters) &&
                           tellDetection(story, clusters, detections) && tellRemoval(story, detections);
     // Without a detection a track may still be carried on by its motion vectors or its prediction.
     if (!detected) detections.clear();
-    tellTracks(story, detections);
+    tellTracks(story, detections, left_out);
     const TrackState* stored = storedTrackAt(evidence);
     if (stored != nullptr) {
         const std::string miss = story.told.sentence;

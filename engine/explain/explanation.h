@@ -29,6 +29,8 @@ struct Explanation {
     std::string sentence;                ///< the one thing that decided, with value and limit
     std::string parameter;               ///< that decided, e.g. "clustering.min_members"; empty where none did
     std::string setting;                 ///< its value in the run with its unit, e.g. "3 vectors"
+    std::optional<Rejection> rejection;  ///< where removal decided
+    std::optional<TrackDrop> drop;       ///< where finishing decided, or that the track is not confirmed
     std::vector<ExplanationStep> steps;  ///< in the order of the chain, up to the stage that decided
 };
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "explain/explanation_steps.h"
+#include "motion/clusters/place_contents.h"
 
 namespace eyrie::explaining {
 namespace {
@@ -100,17 +101,7 @@ void tellLinks(Story& story, int cluster, const MotionClustering& clustering) {
 bool tellClusters(Story& story, std::vector<int>& clusters) {
     const FrameResult& result = story.evidence.result;
     const OrientedBox& area = story.evidence.area;
-    std::vector<int> here;
-    for (std::size_t i = 0; i < result.motion.motion_vectors.size(); ++i) {
-        if (area.contains(result.motion.motion_vectors[i].position, kCornerMargin)) here.push_back(static_cast<int>(i));
-    }
-    for (std::size_t k = 0; k < result.clusters.size(); ++k) {
-        const auto& members = result.clusters[k].members;
-        const bool holds = std::any_of(members.begin(), members.end(),
-                                       [&](int m) { return std::binary_search(here.begin(), here.end(), m); });
-        const bool by_difference = members.empty() && atPlace(result.clusters[k].box, area);
-        if (holds || by_difference) clusters.push_back(static_cast<int>(k));
-    }
+    clusters = clustersAtPlace(area, result.motion, result.clusters);
     const bool by_vectors = story.options.difference.method == MotionMethod::vectors;
     if (clusters.empty() && !by_vectors) {
         story.fail("clustering", "the difference image shows no moving area here", "motion.method");
@@ -119,7 +110,7 @@ bool tellClusters(Story& story, std::vector<int>& clusters) {
     }
     const MotionClustering clustering(story.options.clustering, story.scale);
     if (clusters.empty()) {
-        tellNoCluster(story, here, clustering);
+        tellNoCluster(story, vectorsAtPlace(area, result.motion), clustering);
         return false;
     }
     for (const int k : clusters) {

@@ -116,84 +116,105 @@ bool tellDetection(Story& story, const std::vector<int>& clusters, std::vector<i
     return false;
 }
 
-bool tellRemoval(Story& story, std::vector<int>& detections) {
-    const PlaceEvidence& evidence = story.evidence;
-    const auto& found = evidence.result.detections;
-    std::vector<int> kept;
-    std::string why;
+namespace {
+
+std::string supportText(const RemovalVerdict& verdict, const char* where) {
+    const auto count = static_cast<std::size_t>(verdict.value);
+    return countText(count, "motion vector", "motion vectors") + where + ", " + numberText(verdict.limit) +
+           " are needed";
+}
+
+/// What is told of a rejected detection: a step, and the sentence should it decide.
+struct Refusal {
+    std::string step;
+    std::string sentence;
     std::string parameter;
+};
+
+Refusal refusedAsDuplicate(const Story& story, int index) {
+    const auto& pairs = story.evidence.removal.duplicates;
+    const auto pair =
+        std::find_if(pairs.begin(), pairs.end(), [&](const RemovedDuplicate& d) { return d.removed == index; });
+    if (pair == pairs.end()) {
+        return {"removed as a duplicate of another detection",
+                "The detection here was removed as a duplicate of another", "duplicates.threshold"};
+    }
+    const bool parts = pair->parameter != "duplicates.threshold";
+    const std::string text = parts
+                                 ? "joined with another part of a vehicle: together " + story.lengthText(pair->value) +
+                                       " long, up to " + story.lengthText(pair->limit) + " are one vehicle"
+                                 : "removed as a duplicate: overlaps another detection by " + numberText(pair->value) +
+                                       ", duplicates overlap by " + numberText(pair->limit);
+    return {text, "The detection here was " + text, pair->parameter};
+}
+
+Refusal refusedBySize(const Story& story, const RemovalVerdict& verdict) {
+    if (verdict.parameter == "outliers.inside_image") {
+        const std::string share = numberText(verdict.value) + " of the box is in the picture";
+        return {share + ", all of it must be", "The detection here reaches beyond the picture: " + share,
+                verdict.parameter};
+    }
+    const auto text = [&](double value) {
+        return verdict.parameter == "outliers.min_area" ? numberText(value) + " px²" : story.lengthText(value);
+    };
+    const std::string size =
+        verdict.parameter.empty()
+            ? std::string("an impossible size")
+            : text(verdict.value) + (verdict.at_most ? ", at most " : ", at least ") + text(verdict.limit);
+    return {"size of the box: " + size, "The detection here has an impossible size: " + size, verdict.parameter};
+}
+
+Refusal refusalOf(const Story& story, int index, const RemovalVerdict& verdict) {
+    switch (verdict.rejection) {
+        case Rejection::duplicate:
+            return refusedAsDuplicate(story, index);
+        case Rejection::size:
+            return refusedBySize(story, verdict);
+        case Rejection::outlier:
+        case Rejection::none:
+            break;
+    }
+    const std::string why = "The detection here was removed as an outlier";
+    if (verdict.parameter.empty()) return {"removed as an outlier", why, {}};
+    return {supportText(verdict, " move with the box"), why + ": " + supportText(verdict, " inside"),
+            verdict.parameter};
+}
+
+}  // namespace
+
+bool tellRemoval(Story& story, std::vector<int>& detections) {
+    const FrameResult& result = story.evidence.result;
+    std::vector<int> kept;
+    Refusal nearest;  // of the rejected ones that which lies best on the place decides
+    std::optional<Rejection> rejection;
+    double most = -1;
     for (const int index : detections) {
-        const Detection& detection = found[static_cast<std::size_t>(index)];
-        const int needed =
-            vectorsNeeded(evidence.result.motion, story.options.outliers, story.scale.at(detection.box.centre));
-        const bool by_density = needed > story.options.outliers.min_vectors;
-        const std::string count_parameter = by_density ? "outliers.min_density_share" : "outliers.min_vectors";
-        const std::string vectors = countText(detection.vectors.size(), "motion vector", "motion vectors") +
-                                    " move with the box, " + std::to_string(needed) + " are needed";
-        switch (detection.rejection) {
-            case Rejection::none:
-                story.pass("removal", vectors, count_parameter);
-                if (!std::isnan(detection.probability)) {
-                    story.note("removal", "a moving vehicle with a probability of " +
-                                              numberText(detection.probability) + ", by this frame alone");
-                }
-                kept.push_back(index);
-                break;
-            case Rejection::duplicate: {
-                const auto& pairs = evidence.removal.duplicates;
-                const auto pair = std::find_if(pairs.begin(), pairs.end(),
-                                               [&](const RemovedDuplicate& d) { return d.removed == index; });
-                if (pair == pairs.end()) {
-                    story.note("removal", "removed as a duplicate of another detection", "duplicates.threshold");
-                    why = "The detection here was removed as a duplicate of another";
-                    parameter = "duplicates.threshold";
-                    break;
-                }
-                const bool parts = pair->parameter != "duplicates.threshold";
-                const std::string text =
-                    parts ? "joined with another part of a vehicle: together " + story.lengthText(pair->value) +
-                                " long, up to " + story.lengthText(pair->limit) + " are one vehicle"
-                          : "removed as a duplicate: overlaps another detection by " + numberText(pair->value) +
-                                ", duplicates overlap by " + numberText(pair->limit);
-                story.note("removal", text, pair->parameter);
-                why = "The detection here was " + text;
-                parameter = pair->parameter;
-                break;
+        const Detection& detection = result.detections[static_cast<std::size_t>(index)];
+        const RemovalVerdict verdict = whyRemoved(detection, result.motion, story.options.outliers, story.scale);
+        if (verdict.rejection == Rejection::none) {
+            if (!verdict.parameter.empty())
+                story.pass("removal", supportText(verdict, " move with the box"), verdict.parameter);
+            if (!std::isnan(detection.probability)) {
+                story.note("removal", "a moving vehicle with a probability of " + numberText(detection.probability) +
+                                          ", by this frame alone");
             }
-            case Rejection::outlier:
-                story.fail("removal", vectors, count_parameter);
-                why = "The detection here was removed as an outlier: " +
-                      countText(detection.vectors.size(), "motion vector", "motion vectors") + " inside, " +
-                      std::to_string(needed) + " are needed";
-                parameter = count_parameter;
-                break;
-            case Rejection::size: {
-                const auto limit = brokenSizeLimit(detection.box, story.options.outliers, story.scale,
-                                                   evidence.result.motion.image_size);
-                if (limit && limit->parameter == "outliers.inside_image") {
-                    const std::string share = numberText(limit->value) + " of the box is in the picture";
-                    story.fail("removal", share + ", all of it must be", limit->parameter);
-                    why = "The detection here reaches beyond the picture: " + share;
-                    parameter = limit->parameter;
-                    break;
-                }
-                const bool is_area = limit && limit->parameter == "outliers.min_area";
-                const auto text = [&](double value) {
-                    return is_area ? numberText(value) + " px²" : story.lengthText(value);
-                };
-                parameter = limit ? limit->parameter : "outliers.min_length";
-                const std::string size =
-                    limit ? text(limit->value) + (limit->at_most ? ", at most " : ", at least ") + text(limit->limit)
-                          : std::string("an impossible size");
-                story.fail("removal", "size of the box: " + size, parameter);
-                why = "The detection here has an impossible size: " + size;
-                break;
-            }
+            kept.push_back(index);
+            continue;
         }
+        Refusal refusal = refusalOf(story, index, verdict);
+        if (verdict.rejection == Rejection::duplicate)
+            story.note("removal", refusal.step, refusal.parameter);
+        else
+            story.fail("removal", refusal.step, refusal.parameter);
+        const double shared = overlap(detection.box, story.evidence.area);
+        if (shared <= most) continue;
+        most = shared;
+        nearest = std::move(refusal);
+        rejection = verdict.rejection;
     }
     detections = kept;
     if (!kept.empty()) return true;
-    story.decide(why, parameter);
+    if (story.decide(nearest.sentence, nearest.parameter)) story.told.rejection = rejection;
     return false;
 }
 

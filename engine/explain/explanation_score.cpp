@@ -47,17 +47,14 @@ std::string motionText(const Story& story, const TrackEvidence& evidence) {
 
 }  // namespace
 
-void tellScore(Story& story, TrackId track) {
+void tellScore(Story& story, TrackId track, StepVerdict fate) {
     const auto found = story.evidence.judged.find(track);
     if (found == story.evidence.judged.end()) return;
     const TrackEvidence& evidence = found->second;
     const double needed = story.options.finishing.min_score;
     const std::string text = "track " + std::to_string(track) + " is a moving vehicle with a probability of " +
                              numberText(evidence.score) + ", at least " + numberText(needed) + " is needed";
-    if (evidence.score >= needed)
-        story.pass("score", text, "finishing.min_score");
-    else
-        story.fail("score", text, "finishing.min_score");
+    story.told.steps.push_back({"score", fate, text, "finishing.min_score"});
     const ScoreParts parts = partsOf(evidence);
     tellPart(story,
              evidence.looked_alike > 0

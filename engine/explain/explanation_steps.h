@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,15 +9,13 @@
 /// What the parts of explain() share. Not for others.
 namespace eyrie::explaining {
 
-constexpr double kCornerMargin = 1;  ///< px; corners lie on outlines
-
-/// Collects steps; the first failed one with a sentence ends the story.
+/// Collects steps; the first sentence that decides is told.
 struct Story {
     void pass(const char* stage, const std::string& text, const std::string& parameter = {});
     void note(const char* stage, const std::string& text, const std::string& parameter = {});
     void fail(const char* stage, const std::string& text, const std::string& parameter = {});
-    /// The sentence: why nothing was found. `parameter` may be empty.
-    void decide(const std::string& sentence, const std::string& parameter);
+    /// The sentence: why nothing was found. `parameter` may be empty. Whether it is the one that is told.
+    bool decide(const std::string& sentence, const std::string& parameter);
 
     /// "0.25 px/frame" or, where the scale is known, "0.25 px/frame (1.6 m/s)".
     std::string speedText(double px_per_frame) const;
@@ -46,13 +45,16 @@ bool tellDetection(Story& story, const std::vector<int>& clusters, std::vector<i
 /// Duplicates and outliers; `detections` keeps those that stayed.
 bool tellRemoval(Story& story, std::vector<int>& detections);
 /// What speaks for a finished track, and against it; nothing where it has no score.
-void tellScore(Story& story, TrackId track);
-void tellTracks(Story& story, const std::vector<int>& detections);
+/// `fate`: passed where the track is in the result, failed where its score kept it out, note where something else did.
+void tellScore(Story& story, TrackId track, StepVerdict fate);
+void tellTracks(Story& story, const std::vector<int>& detections, const std::optional<DroppedState>& left_out);
+/// The track at the place that was left out of the result, or would be as it is not confirmed; nothing where one was
+/// stored.
+std::optional<DroppedState> leftOutAt(const PlaceEvidence& evidence);
+/// That it was decides.
+void decideLeftOut(Story& story, const DroppedState& left_out);
 /// The reliable track at the place that was stored, if any.
 const TrackState* storedTrackAt(const PlaceEvidence& evidence);
-
-/// Whether a box means this place: it holds its middle, or they overlap by a fifth.
-bool atPlace(const OrientedBox& box, const OrientedBox& area);
 
 /// Of the states with a box at the place for which `counts` holds, the one that overlaps it most; null: none.
 template <typename State, typename Counts>

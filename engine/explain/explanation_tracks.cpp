@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 
 #include "explain/explanation_steps.h"
 
@@ -64,15 +65,75 @@ const TrackState* unfinishedAt(const PlaceEvidence& evidence) {
     return bestAt(evidence.unfinished, evidence.area, [](const TrackState&) { return true; });
 }
 
-/// The state at the place that was left out when the run's tracks were finished.
-const DroppedState* droppedAt(const PlaceEvidence& evidence) {
-    return bestAt(evidence.result.dropped, evidence.area,
-                  [](const DroppedState& state) { return state.why != TrackDrop::unconfirmed; });
+/// What the tracker counted of a track that is not confirmed; null where it is none of those.
+const TracedTentative* tentativeOf(const PlaceEvidence& evidence, const TrackState* state) {
+    if (state == nullptr || !evidence.tracking) return nullptr;
+    const auto& all = evidence.tracking->tentative;
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const TracedTentative& one) { return one.id == state->id; });
+    return found == all.end() ? nullptr : &*found;
+}
+
+std::string tentativeText(const TracedTentative& tentative) {
+    return "track is tentative: detected in " + std::to_string(tentative.hits) + " of its last " +
+           countText(static_cast<std::size_t>(tentative.frames), "frame", "frames") + ", " +
+           std::to_string(tentative.needed) + " within " + std::to_string(tentative.window) + " are needed";
+}
+
+/// Why a detection that was kept is in no track here.
+void tellUnused(Story& story, const TrackingTrace& trace, const std::vector<int>& detections) {
+    for (const int index : detections) {
+        for (const TracedDouble& doubled : trace.doubled) {
+            if (doubled.detection != index) continue;
+            story.fail("tracks", "the detection starts no track: another that moves alike lies there",
+                       doubled.parameter);
+            story.decide("The detection starts no track because another that moves alike lies there",
+                         doubled.parameter);
+        }
+    }
+}
+
+/// That nothing of the tracker is here, although detections may be.
+void tellNoTrack(Story& story, const TrackingTrace& trace, const std::vector<int>& detections) {
+    story.fail("tracks", "no track here");
+    for (const TracedTrack& track : trace.tracks) {
+        const bool owns = track.kind == AssociationKind::matched && track.detections.size() == 1 &&
+                          contains(detections, track.detections.front());
+        if (owns)
+            story.decide("The detection here belongs to track " + std::to_string(track.id) + ", which lies elsewhere",
+                         track.ended_by);
+    }
+    // Else it started a track, but where parts and merged boxes are told apart.
+    if (!detections.empty())
+        story.decide("The detection here belongs to no track: a larger one claims it", "tracking.split_merge");
+    else
+        story.decide("Nothing was found here, and no track reaches here", "");
 }
 
 }  // namespace
 
-void tellTracks(Story& story, const std::vector<int>& detections) {
+std::optional<DroppedState> leftOutAt(const PlaceEvidence& evidence) {
+    if (storedTrackAt(evidence) != nullptr) return std::nullopt;
+    const TrackState* tentative = bestAt(evidence.result.tracks, evidence.area, [](const TrackState& track) {
+        return track.status == TrackStatus::tentative;
+    });
+    if (tentative != nullptr) return DroppedState{tentative->id, tentative->box, TrackDrop::unconfirmed, 0};
+    const DroppedState* dropped =
+        bestAt(evidence.result.dropped, evidence.area, [](const DroppedState&) { return true; });
+    return dropped == nullptr ? std::nullopt : std::optional(*dropped);
+}
+
+void decideLeftOut(Story& story, const DroppedState& left_out) {
+    const std::string parameter = parameterOf(left_out.why);
+    const TracedTentative* counted =
+        left_out.why == TrackDrop::unconfirmed ? tentativeOf(story.evidence, unfinishedAt(story.evidence)) : nullptr;
+    const std::string sentence = counted != nullptr
+                                     ? "The " + tentativeText(*counted)
+                                     : "Left out when the run's tracks were finished: " + textOf(left_out);
+    if (story.decide(sentence, parameter)) story.told.drop = left_out.why;
+}
+
+void tellTracks(Story& story, const std::vector<int>& detections, const std::optional<DroppedState>& left_out) {
     const PlaceEvidence& evidence = story.evidence;
     if (evidence.tracking) tellRows(story, *evidence.tracking, detections);
     const TrackState* stored = storedTrackAt(evidence);
@@ -80,23 +141,22 @@ void tellTracks(Story& story, const std::vector<int>& detections) {
         story.pass("tracks", "track " + std::to_string(stored->id) + ": " + nameOf(stored->status) + ", " +
                                  nameOf(stored->origin) + ", detected in " + std::to_string(stored->hits) + " of " +
                                  std::to_string(stored->age + 1) + " frames");
-        tellScore(story, stored->id);
+        tellScore(story, stored->id, StepVerdict::passed);
         return;
     }
-    if (const DroppedState* dropped = droppedAt(evidence)) {
-        story.fail("tracks", "left out when the run's tracks were finished: " + textOf(*dropped),
-                   parameterOf(dropped->why));
-        tellScore(story, dropped->id);
-        story.decide("Left out when the run's tracks were finished: " + textOf(*dropped), parameterOf(dropped->why));
+    if (left_out && left_out->why != TrackDrop::unconfirmed) {
+        story.fail("tracks", "left out when the run's tracks were finished: " + textOf(*left_out),
+                   parameterOf(left_out->why));
+        tellScore(story, left_out->id, left_out->why == TrackDrop::unlikely ? StepVerdict::failed : StepVerdict::note);
         return;
     }
     if (!evidence.tracking) {
-        story.fail("tracks", "no track here");
+        story.fail("tracks", left_out ? textOf(*left_out) : std::string("no track here"),
+                   left_out ? parameterOf(left_out->why) : "");
         story.decide("No track here", "");
         return;
     }
     const TrackingTrace& trace = *evidence.tracking;
-    const TrackerOptions options = story.options.tracking.atRate(story.scale.frame_rate_hz);
     for (const TracedTrack& track : trace.tracks) {
         if (track.ended_by.empty() || !atPlace(track.predicted, evidence.area)) continue;
         if (track.ended_by == "tracking.suppress_duplicates") continue;
@@ -107,44 +167,34 @@ void tellTracks(Story& story, const std::vector<int>& detections) {
                          (track.ended_by == "tracking.min_visible" ? " is needed" : " are allowed"),
                      track.ended_by);
     }
-    for (const int index : detections) {
-        if (!contains(trace.doubled, index)) continue;
-        story.fail("tracks", "the detection starts no track: another that moves alike lies there",
-                   "tracking.duplicate_overlap");
-        story.decide("The detection starts no track because another that moves alike lies there",
-                     "tracking.duplicate_overlap");
-    }
+    tellUnused(story, trace, detections);
     const TrackState* state = unfinishedAt(evidence);
     for (const auto& [index, id] : trace.started) {
         if (contains(detections, index)) state = unfinishedOf(evidence, id);
     }
-    if (state == nullptr) {
-        story.fail("tracks", "no track here");
-        if (!detections.empty())
-            story.decide("The detection here belongs to no track: a larger one claims it", "tracking.split_merge");
-        else
-            story.decide("Nothing was found here, and no track reaches here", "");
+    if (state == nullptr && left_out) {
+        story.fail("tracks", textOf(*left_out), parameterOf(left_out->why));
         return;
     }
-    if (state->status == TrackStatus::tentative) {
-        const std::string text = "track is tentative: detected in " + std::to_string(state->hits) + " of its " +
-                                 std::to_string(state->age + 1) + " frames, " + std::to_string(options.confirm_hits) +
-                                 " within " + std::to_string(options.confirm_window) + " are needed";
-        story.fail("tracks", text, "tracking.confirm_hits");
-        story.decide("The " + text, "tracking.confirm_hits");
+    if (state == nullptr) return tellNoTrack(story, trace, detections);
+    if (const TracedTentative* tentative = tentativeOf(evidence, state)) {
+        const std::string parameter = parameterOf(TrackDrop::unconfirmed);
+        story.fail("tracks", tentativeText(*tentative), parameter);
+        if (story.decide("The " + tentativeText(*tentative), parameter)) story.told.drop = TrackDrop::unconfirmed;
         return;
     }
     story.pass("tracks", "track " + std::to_string(state->id) + " of the tracker: " + nameOf(state->status) + ", " +
                              nameOf(state->origin));
-    if (state->origin == StateOrigin::predicted) {
+    if (state->origin == StateOrigin::predicted && story.options.finishing.trim_predicted) {
         story.fail("tracks", "removed when the run's tracks were finished", "finishing.trim_predicted");
         story.decide("The track here was only predicted and was cut off when the run's tracks were finished",
                      "finishing.trim_predicted");
         return;
     }
-    story.fail("tracks", "removed when the run's tracks were finished", "finishing.max_sharing");
-    story.decide("The tracker had a track here; it was removed or moved when the run's tracks were finished",
-                 "finishing.max_sharing");
+    // What finishing drops it tells; what it joins or smooths it does not.
+    story.fail("tracks", "joined or moved when the run's tracks were finished");
+    story.decide(
+        "The tracker had a track here; it was joined with another or moved when the run's tracks were finished", {});
 }
 
 }  // namespace eyrie::explaining

@@ -13,7 +13,7 @@ void PeerOptions::describe(ParameterVisitor& visitor) {
         "peer.threshold", threshold, 0, 255,
         {"grey", "Pixels move where both differences exceed this. Larger: fewer false boxes, dull vehicles are lost.",
          ""});
-    declare.real("peer.joining", joining_px, 0, 100,
+    declare.real("peer.joining", joining, 0, 100,
                  {"px",
                   "Areas closer than this are one object. Larger: front and rear of a plain car become one, and so do "
                   "neighbours.",

@@ -11,7 +11,7 @@ struct PeerOptions {
     int gap = 3;            ///< pictures between those that are compared
     double blur_px = 0;     ///< deviation of the Gaussian before differences are taken
     double threshold = 16;  ///< pixels move from this difference on, grey values
-    double joining_px = 5;  ///< areas closer than this are one object; 0: none are joined
+    double joining = 5;     ///< areas closer than this are one object; 0: none are joined
     int min_area_px = 40;   ///< smaller objects are dropped
     SortOptions sort;
 

@@ -8,7 +8,7 @@ namespace eyrie {
 
 std::vector<OrientedBox> ThreeFrameBoxes::boxesOf(const cv::Mat& moving) const {
     cv::Mat joined = moving;
-    const int side = cvRound(options_.joining_px / 2) * 2 + 1;
+    const int side = cvRound(options_.joining / 2) * 2 + 1;
     if (side > 1) {
         cv::morphologyEx(moving, joined, cv::MORPH_CLOSE, cv::getStructuringElement(cv::MORPH_ELLIPSE, {side, side}));
     }

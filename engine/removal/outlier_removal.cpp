@@ -20,6 +20,25 @@ bool whollyInImage(const OrientedBox& box, cv::Size image) {
            top + around.width <= image.height - 1 + kImageEdge;
 }
 
+/// The parameter that says so many vectors are needed.
+const char* parameterOfNeeded(int needed, const OutlierRemovalOptions& options) {
+    return needed > options.min_vectors ? "outliers.min_density_share" : "outliers.min_vectors";
+}
+
+/// Judges a detection by the vectors it has.
+RemovalVerdict judgeSupportAndSize(const Detection& detection, const FrameMotion& motion,
+                                   const OutlierRemovalOptions& options, const SceneScale& scale) {
+    const int needed = vectorsNeeded(motion, options, scale.at(detection.box.centre));
+    const auto count = static_cast<int>(detection.vectors.size());
+    RemovalVerdict verdict{Rejection::none, parameterOfNeeded(needed, options), 1.0 * count, 1.0 * needed, false};
+    if (count < needed) {
+        verdict.rejection = Rejection::outlier;
+    } else if (const auto broken = brokenSizeLimit(detection.box, options, scale, motion.image_size)) {
+        verdict = {Rejection::size, broken->parameter, broken->value, broken->limit, broken->at_most};
+    }
+    return verdict;
+}
+
 }  // namespace
 
 std::optional<BrokenLimit> brokenSizeLimit(const OrientedBox& box, const OutlierRemovalOptions& options,
@@ -44,7 +63,7 @@ OutlierRemovalOptions OutlierRemovalOptions::thesis() {
     OutlierRemovalOptions options;
     options.min_vectors = 4;
     options.min_density_share = 0;
-    options.vector_margin_px = 0;
+    options.vector_margin = 0;
     options.compare_velocity = false;
     options.min_length_m = 0;
     options.max_length_m = 0;
@@ -64,7 +83,7 @@ void OutlierRemovalOptions::describe(ParameterVisitor& visitor) {
                   ""});
     declare.integer("outliers.max_min_vectors", max_min_vectors, 0, 1000,
                     {"vectors", "However dense the corners are, that many vectors are enough.", ""});
-    declare.real("outliers.vector_margin", vector_margin_px, 0, 10,
+    declare.real("outliers.vector_margin", vector_margin, 0, 10,
                  {"px", "Motion vectors up to this far outside a box count as inside: corners lie on outlines.",
                   "Teutsch §5.5.2"});
     declare.flag("outliers.compare_velocity", compare_velocity,
@@ -84,17 +103,22 @@ int vectorsNeeded(const FrameMotion& motion, const OutlierRemovalOptions& option
     return std::max(options.min_vectors, by_density);
 }
 
+RemovalVerdict whyRemoved(const Detection& detection, const FrameMotion& motion, const OutlierRemovalOptions& options,
+                          const SceneScale& scale) {
+    const RemovalVerdict verdict = judgeSupportAndSize(detection, motion, options, scale);
+    return verdict.rejection == detection.rejection ? verdict : RemovalVerdict{detection.rejection, {}, 0, 0, false};
+}
+
 std::vector<Detection> removeOutliers(std::vector<Detection> detections, const FrameMotion& motion,
                                       const OutlierRemovalOptions& options, const SceneScale& scale) {
     const double density = cornerDensity(motion);
     SupportRule rule;
-    rule.margin_px = options.vector_margin_px;
+    rule.margin_px = options.vector_margin;
     rule.compare_velocity = options.compare_velocity;
     for (Detection& detection : detections) {
         if (detection.rejection != Rejection::none) continue;
         measureSupport(detection, motion, rule);
         const SceneScale here = scale.at(detection.box.centre);
-        const auto needed = static_cast<std::size_t>(vectorsNeeded(motion, options, here));
         if (!(detection.score > 0)) {
             const double car = carArea(here);
             // Boxes much smaller or larger than a car must not look surer or less sure for that alone.
@@ -102,11 +126,7 @@ std::vector<Detection> removeOutliers(std::vector<Detection> detections, const F
             const double expected = std::max(1.0, density * area);
             detection.score = static_cast<double>(detection.vectors.size()) / expected;
         }
-        if (detection.vectors.size() < needed) {
-            detection.rejection = Rejection::outlier;
-        } else if (brokenSizeLimit(detection.box, options, scale, motion.image_size)) {
-            detection.rejection = Rejection::size;
-        }
+        detection.rejection = judgeSupportAndSize(detection, motion, options, scale).rejection;
     }
     return detections;
 }

@@ -15,7 +15,7 @@ struct OutlierRemovalOptions {
     int min_vectors = 3;              ///< T_out: detections with fewer motion vectors inside are rejected
     double min_density_share = 0.25;  ///< T_out is also this share of the vectors expected on a car
     int max_min_vectors = 12;         ///< however dense the corners are, that many are enough
-    double vector_margin_px = 1;      ///< vectors up to this far outside count as inside: corners lie on outlines
+    double vector_margin = 1;         ///< vectors up to this far outside count as inside: corners lie on outlines
     bool compare_velocity = true;     ///< only vectors that move like the detection count
     double min_area_px = 10;          ///< px², smaller boxes are rejected
     double min_length_m = 1.2;        ///< shorter boxes are rejected; 0: no limit
@@ -35,6 +35,11 @@ int vectorsNeeded(const FrameMotion& motion, const OutlierRemovalOptions& option
 /// empty: everywhere is inside.
 std::optional<BrokenLimit> brokenSizeLimit(const OrientedBox& box, const OutlierRemovalOptions& options,
                                            const SceneScale& scale, cv::Size image = {});
+
+/// Why a detection that removeOutliers() has been over was rejected, or how many vectors kept it. Says `rejection` and
+/// no more where something else rejected it: it is a duplicate, or the run had other rules than these.
+RemovalVerdict whyRemoved(const Detection& detection, const FrameMotion& motion, const OutlierRemovalOptions& options,
+                          const SceneScale& scale);
 
 /// Rejects detections without enough motion vectors inside, of an impossible size, or (if wanted) not wholly in
 /// the image; they stay in the list with

@@ -69,8 +69,7 @@ struct Joined {
 /// Nothing when they are not parts of one vehicle.
 std::optional<Joined> unionOfParts(const Detection& a, const Detection& b, const FrameMotion& motion,
                                    const PartJoiningOptions& options, const Limits& limits) {
-    if (!similarVelocity(a.velocity, b.velocity, options.part_velocity_floor_px, options.part_velocity_share))
-        return {};
+    if (!similarVelocity(a.velocity, b.velocity, options.part_velocity_floor, options.part_velocity_share)) return {};
     if (std::abs(turnBetween(a.box.heading, b.box.heading)) > radiansFromDegrees(options.part_max_turn_deg)) return {};
     const bool a_leads = a.box.area() >= b.box.area();
     const OrientedBox both = unionBox(a_leads ? a.box : b.box, a_leads ? b.box : a.box);
@@ -114,7 +113,7 @@ void PartJoiningOptions::describe(ParameterVisitor& visitor) {
          ""});
     declare.real("duplicates.part_silhouette_length", part_silhouette_length_m, 0, 100,
                  {"m", "Longest vehicle that parts on one silhouette may make up.", ""});
-    declare.real("duplicates.part_velocity_floor", part_velocity_floor_px, 0, 10,
+    declare.real("duplicates.part_velocity_floor", part_velocity_floor, 0, 10,
                  {"px/frame", "Velocities of parts may always differ by this.", ""});
     declare.real("duplicates.part_velocity_share", part_velocity_share, 0, 1,
                  {"", "Velocities of parts may differ by this share of the speed.", ""});

@@ -22,6 +22,15 @@ struct RemovalTrace {
     std::vector<RemovedDuplicate> duplicates;
 };
 
+/// What outlier removal found about a detection.
+struct RemovalVerdict {
+    Rejection rejection = Rejection::none;
+    std::string parameter;  ///< that says the limit; empty where nothing was compared
+    double value = 0;       ///< motion vectors that move with the box; for a size as in BrokenLimit
+    double limit = 0;       ///< the same unit
+    bool at_most = false;
+};
+
 /// A size limit that a box breaks.
 struct BrokenLimit {
     std::string parameter;

@@ -1,15 +1,11 @@
 #include "rerun/preview.h"
 
 #include <algorithm>
-#include <opencv2/core/utility.hpp>
 #include <utility>
 
 #include "chain/chain.h"
 #include "chain/parameter_stage.h"
 #include "core/error.h"
-#include "detection/detector_factory.h"
-#include "detection/roi_cutter.h"
-#include "removal/detection_probability.h"
 #include "tracking/tracker.h"
 
 namespace eyrie {
@@ -95,33 +91,19 @@ FrameResult Preview::secondHalf(Known& known, const ChainOptions& options) {
         known.clusters_for = clusters_for;
         known.found_for.clear();
     }
-    const std::string detector_for = signatureOf(options, ChainStage::detection, ChainStage::detection);
-    if (known.found_for != detector_for) {
-        if (!detector_ || detector_for_ != detector_for) {
-            detector_ = makeDetector(options.detection, source_.scale);
-            detector_for_ = detector_for;
+    const std::string found_for = signatureOf(options, ChainStage::detection, ChainStage::detection);
+    if (known.found_for != found_for) {
+        if (!search_ || search_for_ != found_for) {
+            search_ = std::make_unique<ClusterSearch>(options.detection, source_.scale);
+            search_for_ = found_for;
         }
         if (known.frame.gray.empty()) known.frame = source_.pixels(result.motion.frame);
-        const auto count = known.clusters.size();
-        std::vector<std::vector<Detection>> per_cluster(count);
-        known.rois.assign(count, {});
-        cv::parallel_for_(cv::Range(0, static_cast<int>(count)), [&](const cv::Range& part) {
-            for (int i = part.start; i < part.end; ++i) {
-                const auto at = static_cast<std::size_t>(i);
-                const MotionRoi roi =
-                    cutMotionRoi(known.frame, known.clusters[at], i, result.motion, options.detection, source_.scale);
-                known.rois[at] = roi.box;
-                per_cluster[at] = detector_->detect(roi);
-            }
-        });
-        known.found.clear();
-        for (auto& found : per_cluster)
-            for (Detection& detection : found) known.found.push_back(std::move(detection));
-        known.found_for = detector_for;
+        known.found = search_->search(known.frame, result.motion, known.clusters);
+        known.found_for = found_for;
     }
     result.clusters = known.clusters;
-    result.rois = known.rois;
-    result.detections = removed(known.found, result.motion, options, source_.scale);
+    result.rois = known.found.rois;
+    result.detections = removed(known.found.detections, result.motion, options, source_.scale);
     return result;
 }
 

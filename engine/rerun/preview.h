@@ -51,8 +51,7 @@ class Preview {
         std::string clusters_for;  ///< parameters the clusters were found with
         std::vector<MotionCluster> clusters;
         std::string found_for;  ///< … and the detections
-        std::vector<Detection> found;
-        std::vector<OrientedBox> rois;
+        ClusterSearch::Found found;
     };
     Known* known(FrameIndex frame);
     /// Motion of the frame and the `range` frames before it, by other parameters than the run's.
@@ -72,8 +71,8 @@ class Preview {
     std::string windows_for_;
     std::map<FrameIndex, FrameMotion> motions_;  ///< with other parameters of motion; empty: the run's
     std::string motions_for_;
-    std::unique_ptr<Detector> detector_;
-    std::string detector_for_;
+    std::unique_ptr<ClusterSearch> search_;
+    std::string search_for_;
     std::unique_ptr<Replay> replay_;  ///< where stacks or difference images reach back
     std::string replay_for_;
 };

@@ -64,7 +64,7 @@ void StackingOptions::describe(ParameterVisitor& v) {
     declare.real(
         "stacking.max_speed_difference", max_speed_difference, 0.01, 2,
         {"", "A stack replaces a cluster only if their speeds differ by no more than this share.", "Teutsch §5.3.4"});
-    declare.real("stacking.max_turn", max_turn_degrees, 1, 180,
+    declare.real("stacking.max_turn", max_turn_deg, 1, 180,
                  {"degrees", "A stack replaces a cluster only if their directions differ by no more than this.",
                   "Teutsch §5.3.4"});
     declare.real("stacking.vehicle_length", vehicle_length_m, 1, 30,
@@ -286,8 +286,8 @@ std::vector<MotionRoi> ImageStacker::replace(const MotionCluster& cluster, int c
         const double difference = std::abs(std::hypot(pose.velocity.x, pose.velocity.y) - speed);
         const double turn = std::abs(turnBetween(pose.heading, cluster.box.heading));
         if (difference > options_.max_speed_difference * std::max(speed, 1e-6)) continue;
-        if (turn > radiansFromDegrees(options_.max_turn_degrees)) continue;
-        if (!cluster.box.contains(pose.position) || entry.stack.height() < options_.min_height) continue;
+        if (turn > radiansFromDegrees(options_.max_turn_deg)) continue;
+        if (!cluster.box.contains(pose.position) || !entry.isSearched(options_)) continue;
 
         const cv::Matx23d image_from_stack = imageFromPatch(stackArea(pose, area_), area_);
         std::vector<cv::Point2d> corners;
@@ -347,7 +347,13 @@ std::vector<StackView> ImageStacker::views(const Frame& frame, StackPictures pic
     std::vector<const Entry*> shown;
     for (const auto& entry : entries_) {
         if (entry.stack.height() == 0) continue;
-        views.push_back({entry.master.id(), entry.master.pose(), entry.stack.height(), entry.master.related(), {}, {}});
+        views.push_back({entry.master.id(),
+                         entry.master.pose(),
+                         entry.stack.height(),
+                         entry.isSearched(options_),
+                         entry.master.related(),
+                         {},
+                         {}});
         shown.push_back(&entry);
     }
     const cv::Rect part = shownPart(pictures);

@@ -34,7 +34,7 @@ struct StackingOptions {
     int neighbours = 3;                  ///< k of the k-NN vote
     bool follow_lone_vectors = false;    ///< a stack's vectors carry it outside every cluster, too
     double max_speed_difference = 0.25;  ///< of the cluster's speed
-    double max_turn_degrees = 20;
+    double max_turn_deg = 20;
     double vehicle_length_m = kCarLength_m;  ///< for k of k-means
 
     void describe(ParameterVisitor& visitor);
@@ -54,6 +54,7 @@ struct StackView {
     int id = 0;
     MasterPose pose;
     int height = 0;
+    bool searched = false;  ///< high enough to be searched in place of the raw image
     std::vector<CornerId> related;
     cv::Mat stacked;  ///< CV_8UC1 upright; empty without pictures
     cv::Mat raw;      ///< CV_8UC1 upright, the same part of the current frame; empty without pictures
@@ -86,6 +87,8 @@ class ImageStacker {
 
  private:
     struct Entry {
+        bool isSearched(const StackingOptions& options) const { return stack.height() >= options.min_height; }
+
         MasterVector master;
         ImageStack stack;
 

@@ -100,7 +100,8 @@ void TrackManager::count(Track& track, double slow_speed) const {
     if (track.recognised) track.predicted_streak = 1;
 
     if (track.status == TrackStatus::tentative) {
-        if (hitsWithin(track.history, confirm_window_) >= confirm_hits_) track.status = TrackStatus::confirmed;
+        const TracedTentative evidence = confirmationOf(track);
+        if (evidence.hits >= evidence.needed) track.status = TrackStatus::confirmed;
     } else {
         track.status = detected ? TrackStatus::confirmed : TrackStatus::coasting;
     }
@@ -111,6 +112,11 @@ void TrackManager::count(Track& track, double slow_speed) const {
         track.stopped = track.stopped || track.filter.speed() < std::max(stopSpeedOf(track), slow_speed);
         if (track.stopped) track.filter.slowDown(kStopping);
     }
+}
+
+TracedTentative TrackManager::confirmationOf(const Track& track) const {
+    return {track.id, hitsWithin(track.history, confirm_window_), std::min(confirm_window_, track.age + 1),
+            confirm_hits_, confirm_window_};
 }
 
 bool TrackManager::mayBeReconstructed(const Track& track) const {
@@ -239,17 +245,18 @@ std::optional<TrackManager::End> TrackManager::endOf(const Track& track, cv::Siz
     return End{parameter, 1.0 * track.predicted_streak, 1.0 * limit};
 }
 
-bool TrackManager::alike(const OrientedBox& a, cv::Point2d velocity_a, const OrientedBox& b, cv::Point2d velocity_b,
-                         double slow_speed) const {
+const char* TrackManager::alike(const OrientedBox& a, cv::Point2d velocity_a, const OrientedBox& b,
+                                cv::Point2d velocity_b, double slow_speed) const {
     const double reach = (std::hypot(a.length, a.width) + std::hypot(b.length, b.width)) / 2;
-    if (std::abs(a.centre.x - b.centre.x) > reach || std::abs(a.centre.y - b.centre.y) > reach) return false;
+    if (std::abs(a.centre.x - b.centre.x) > reach || std::abs(a.centre.y - b.centre.y) > reach) return nullptr;
     const double speed = std::max(std::hypot(velocity_a.x, velocity_a.y), std::hypot(velocity_b.x, velocity_b.y));
     const cv::Point2d difference = velocity_a - velocity_b;
-    if (std::hypot(difference.x, difference.y) > std::max(slow_speed, kAlikeSpeeds * speed)) return false;
-    if (one_vehicle_.holds(unionBox(a, b))) return true;
+    if (std::hypot(difference.x, difference.y) > std::max(slow_speed, kAlikeSpeeds * speed)) return nullptr;
+    if (one_vehicle_.holds(unionBox(a, b))) return "tracking.one_vehicle";
     const double smaller = std::min(a.area(), b.area());
     const double shared = intersectionArea(a, b);
-    return shared >= duplicate_overlap_ * (a.area() + b.area() - shared) || shared >= duplicate_containment_ * smaller;
+    if (shared >= duplicate_overlap_ * (a.area() + b.area() - shared)) return "tracking.duplicate_overlap";
+    return shared >= duplicate_containment_ * smaller ? "tracking.duplicate_containment" : nullptr;
 }
 
 std::vector<char> TrackManager::mergeBeliefs(const std::vector<Track>& tracks, double slow_speed) const {
@@ -310,12 +317,15 @@ void TrackManager::suppressDuplicates(std::vector<Track>& tracks, double slow_sp
     tracks.erase(tracks.begin() + static_cast<std::ptrdiff_t>(kept), tracks.end());
 }
 
-bool TrackManager::wouldDuplicate(const OrientedBox& box, cv::Point2d velocity, const std::vector<Track>& tracks,
-                                  double slow_speed) const {
-    return suppress_duplicates_ && std::any_of(tracks.begin(), tracks.end(), [&](const Track& track) {
-               return track.predicted_streak < 2 && !track.recognised &&
-                      alike(box, velocity, track.filter.box(), track.filter.velocity(), slow_speed);
-           });
+const char* TrackManager::wouldDuplicate(const OrientedBox& box, cv::Point2d velocity, const std::vector<Track>& tracks,
+                                         double slow_speed) const {
+    if (!suppress_duplicates_) return nullptr;
+    for (const Track& track : tracks) {
+        if (track.predicted_streak >= 2 || track.recognised) continue;
+        const char* const parameter = alike(box, velocity, track.filter.box(), track.filter.velocity(), slow_speed);
+        if (parameter != nullptr) return parameter;
+    }
+    return nullptr;
 }
 
 }  // namespace eyrie

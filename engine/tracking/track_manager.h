@@ -8,6 +8,7 @@
 #include "tracking/association/split_merge.h"
 #include "tracking/track.h"
 #include "tracking/tracker_options.h"
+#include "tracking/tracking_trace.h"
 
 namespace eyrie {
 
@@ -18,6 +19,8 @@ class TrackManager {
 
     /// Counts the evidence of a frame (`track.origin`) and moves the track's status on.
     void count(Track& track, double slow_speed) const;
+    /// What count() compares to confirm a track.
+    TracedTentative confirmationOf(const Track& track) const;
     /// Whether the track may be rebuilt from motion vectors once more.
     bool mayBeReconstructed(const Track& track) const;
     /// Whether a track without evidence in this frame may be looked for by its appearance. `classified`: a classifier
@@ -51,9 +54,10 @@ class TrackManager {
     /// Deletes the younger of two tracks that lie on each other and move alike, and tracks that hold several reliable
     /// ones. `slow_speed`: px/frame below which speeds do not differ.
     void suppressDuplicates(std::vector<Track>& tracks, double slow_speed) const;
-    /// Whether a new box would be a duplicate of a track that has evidence in this frame.
-    bool wouldDuplicate(const OrientedBox& box, cv::Point2d velocity, const std::vector<Track>& tracks,
-                        double slow_speed) const;
+    /// The parameter by which a new box would be a duplicate of a track that has evidence in this frame; null: it would
+    /// not be one.
+    const char* wouldDuplicate(const OrientedBox& box, cv::Point2d velocity, const std::vector<Track>& tracks,
+                               double slow_speed) const;
     /// Size of a box that holds one vehicle at most.
     const VehicleLimit& oneVehicle() const { return one_vehicle_; }
     /// Frames with failed registration after which all tracks end.
@@ -63,8 +67,9 @@ class TrackManager {
     /// px/frame below which the track counts as stopped.
     double stopSpeedOf(const Track& track) const;
     bool hasDriven(const Track& track, bool classified) const;
-    bool alike(const OrientedBox& a, cv::Point2d velocity_a, const OrientedBox& b, cv::Point2d velocity_b,
-               double slow_speed) const;
+    /// The parameter by which both are one object; null: they are not.
+    const char* alike(const OrientedBox& a, cv::Point2d velocity_a, const OrientedBox& b, cv::Point2d velocity_b,
+                      double slow_speed) const;
     bool leaving(const Track& track, cv::Size image) const;
     std::vector<char> mergeBeliefs(const std::vector<Track>& tracks, double slow_speed) const;
 

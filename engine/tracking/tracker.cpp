@@ -80,7 +80,11 @@ std::vector<TrackState> Tracker::next(const FrameMotion& motion, const std::vect
     }
     std::vector<TrackState> states;
     states.reserve(tracks_.size());
-    for (const Track& track : tracks_) states.push_back(track.state());
+    for (const Track& track : tracks_) {
+        states.push_back(track.state());
+        if (trace != nullptr && track.status == TrackStatus::tentative)
+            trace->tentative.push_back(manager_.confirmationOf(track));
+    }
     return states;
 }
 
@@ -340,8 +344,10 @@ void Tracker::startTracks(const std::vector<const Detection*>& detections, const
     for (std::size_t i = 0; i < detections.size(); ++i) {
         const Detection& detection = *detections[i];
         if (used[i]) continue;
-        if (manager_.wouldDuplicate(detection.box, detection.velocity, tracks_, model_.slowSpeed())) {
-            if (trace != nullptr) trace->doubled.push_back(positions[i]);
+        const char* const doubled_by =
+            manager_.wouldDuplicate(detection.box, detection.velocity, tracks_, model_.slowSpeed());
+        if (doubled_by != nullptr) {
+            if (trace != nullptr) trace->doubled.push_back({positions[i], doubled_by});
             continue;
         }
         Track track(model_.first(detection));

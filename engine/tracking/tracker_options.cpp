@@ -55,7 +55,7 @@ void describeAssociation(TrackerOptions& o, const ParameterDeclarer& declare) {
     declare.real("tracking.car_width", o.car_width_m, 0, 20,
                  {"m", "Width of a usual car. A first box that is narrower is expected to grow.", ""});
     declare.real(
-        "tracking.one_vehicle", o.one_vehicle_factor, 0, 5,
+        "tracking.one_vehicle", o.one_vehicle, 0, 5,
         {"",
          "A box up to this many times a usual car holds one vehicle: it is no merged detection, and tracks that fit "
          "into it together are one. 0 switches the rule off.",
@@ -270,7 +270,7 @@ TrackerOptions TrackerOptions::thesis() {
     options.size_gate = 0;
     options.car_length_m = 0;
     options.car_width_m = 0;
-    options.one_vehicle_factor = 0;
+    options.one_vehicle = 0;
     options.vectors_first = true;
     options.rebuilt_size = RebuiltSize::stored;
     options.max_vectors = 20;

@@ -42,7 +42,7 @@ struct TrackerOptions {
     int size_patience = 10;
     double car_length_m = kCarLength_m;
     double car_width_m = kCarWidth_m;
-    double one_vehicle_factor = 1.3;
+    double one_vehicle = 1.3;  ///< times the usual car
 
     // Association of motion vectors and reconstruction.
     bool use_vectors = true;

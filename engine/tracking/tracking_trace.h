@@ -30,11 +30,27 @@ struct TracedTrack {
     double ended_limit = 0;
 };
 
+/// A detection that starts no track: it lies on one with evidence that moves alike.
+struct TracedDouble {
+    int detection = 0;      ///< position in the frame's list of detections
+    std::string parameter;  ///< by which both are one object
+};
+
+/// How far a track that is still tentative after the frame is from being confirmed.
+struct TracedTentative {
+    TrackId id = 0;
+    int hits = 0;    ///< detections within the last `frames`
+    int frames = 0;  ///< `window`, or as many as the track has
+    int needed = 0;  ///< detections within `window`
+    int window = 0;
+};
+
 /// How a frame's detections and tracks were joined, to be looked at.
 struct TrackingTrace {
     std::vector<TracedTrack> tracks;  ///< those that lived before the frame, ascending id
     std::vector<TracedRelation> relations;
-    std::vector<int> doubled;  ///< detections that started no track because one with evidence lies there
+    std::vector<TracedDouble> doubled;
+    std::vector<TracedTentative> tentative;        ///< ascending id
     std::vector<std::pair<int, TrackId>> started;  ///< detections that started tracks
     double min_overlap = 0;                        ///< T_tov
 };

@@ -1,21 +1,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <map>
 #include <string>
 
-#include "chain/chain.h"
-#include "chain/recording/run_recorder.h"
-#include "diagnosis/diagnoser.h"
-#include "explain/place_explainer.h"
-#include "support/moving_scene.h"
+#include "diagnosis/hindered_run.h"
 
 namespace eyrie::same_reason_test {
 namespace {
 
+using test::HinderedRun;
 using testing::HasSubstr;
-
-constexpr FrameIndex kFrame = 30;
 
 /// Parameters that keep the vectors of a vehicle out of a cluster, and what both answers have to name.
 struct Hindrance {
@@ -23,59 +17,6 @@ struct Hindrance {
     void (*hinder)(MotionClusteringOptions& options);
     std::string parameter;  ///< empty: any of clustering
     ErrorCause cause;
-};
-
-/// A run over a small drawn scene, kept in memory.
-class HinderedRun {
- public:
-    explicit HinderedRun(const ChainOptions& options)
-        : source_(scene_), options_(options), scale_(sceneScale(source_.info(), 0.2)) {
-        Chain chain(options, scale_);
-        for (FrameIndex f = 0; f <= kFrame; ++f) results_[f] = chain.next(source_.read(f, false));
-    }
-    OrientedBox place() const { return placeAt(scene_.vehicleAt(scene_.vehicles.front(), kFrame), scale_); }
-    const FrameResult& result() const { return results_.at(kFrame); }
-
-    Explanation explanation() {
-        ReplaySource replay;
-        replay.options = options_;
-        replay.scale = scale_;
-        replay.pixels = [this](FrameIndex frame) { return source_.read(frame, false); };
-        replay.result_of = [this](FrameIndex frame) { return resultOf(frame); };
-        replay.motion_of = [this](FrameIndex frame) -> std::optional<FrameMotion> { return resultOf(frame)->motion; };
-        return PlaceExplainer(std::move(replay)).explain(kFrame, place(), {}).value();
-    }
-    /// Of the vehicle that nothing was found of.
-    DiagnosedError diagnosis() {
-        BoxRecord vehicle;
-        vehicle.frame = kFrame;
-        vehicle.id = 1;
-        vehicle.box = place();
-        vehicle.object_class = "car";
-        const BoxesByFrame truth{{kFrame, {vehicle}}};
-        const EvaluationOptions evaluation;
-        const BoxesByFrame found;
-        const EvaluationInput input = prepareEvaluation(truth, found, evaluation);
-        const auto matches = matchFrames(input, evaluation);
-        DiagnosisSource source;
-        source.options = options_;
-        source.scale = scale_;
-        source.frame_result = [this](FrameIndex frame) { return resultOf(frame); };
-        auto errors = Diagnoser(std::move(source))
-                          .diagnose(listErrors(truth, found, input, matches, evaluation),
-                                    {truth, found, input, matches, evaluation}, {});
-        EXPECT_EQ(errors.size(), 1U);
-        return errors.front();
-    }
-
- private:
-    std::optional<FrameResult> resultOf(FrameIndex frame) const { return results_.at(frame); }
-
-    test::MovingScene scene_;
-    test::MemorySource source_;
-    ChainOptions options_;
-    SceneScale scale_;
-    std::map<FrameIndex, FrameResult> results_;
 };
 
 TEST(SameReason, WhyAndTheCauseOfAMissNameTheSameParameterOfClustering) {

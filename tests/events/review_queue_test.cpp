@@ -39,7 +39,7 @@ TEST(ReviewQueue, WhatCouldBeMissedComesFirst) {
         {Group::rest, true, 4},          {Group::rest, true, 6},          {Group::rest, true, 7}};
     EXPECT_EQ(queue, expected);
     ReviewOptions none;
-    none.rare_count = 0;
+    none.rare = 0;
     EXPECT_EQ(reviewQueue(events, {}, unsure, none)[2].group, QueueGroup::unsure);
     EXPECT_THAT(reviewQueue({}, {}, {}), IsEmpty());
 }

@@ -266,11 +266,13 @@ TEST(Explanation, tentativeTrackCountsItsDetections) {
     PlaceEvidence evidence = detectedPlace();
     evidence.tracking->started = {{0, 7}};
     evidence.unfinished = {stateAt(7, {100, 100}, TrackStatus::tentative, StateOrigin::detected)};
+    evidence.tracking->tentative = {{7, 3, 8, 5, 8}};
     const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
     EXPECT_FALSE(told.found);
-    EXPECT_EQ(told.sentence,
-              "The track is tentative: detected in 3 of its 10 frames, 5 within 8 are needed: tracking.confirm_hits = "
-              "5 frames.");
+    EXPECT_EQ(
+        told.sentence,
+        "The track is tentative: detected in 3 of its last 8 frames, 5 within 8 are needed: tracking.confirm_hits = "
+        "5 frames.");
 }
 
 TEST(Explanation, trackThatEndedForWantOfEvidence) {
@@ -295,7 +297,7 @@ TEST(Explanation, trackThatEndedForWantOfEvidence) {
 
 TEST(Explanation, detectionInsideATrackThatMovesAlikeStartsNone) {
     PlaceEvidence evidence = detectedPlace();
-    evidence.tracking->doubled = {0};
+    evidence.tracking->doubled = {{0, "tracking.duplicate_overlap"}};
     const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
     EXPECT_EQ(told.parameter, "tracking.duplicate_overlap");
 }
@@ -382,6 +384,8 @@ TEST(Explanation, everyParameterNamedIsOneThatExists) {
                              "tracking.max_leaving",
                              "tracking.min_visible",
                              "tracking.duplicate_overlap",
+                             "tracking.duplicate_containment",
+                             "tracking.one_vehicle",
                              "tracking.suppress_duplicates",
                              "tracking.split_merge",
                              "finishing.trim_predicted",

@@ -77,7 +77,7 @@ const std::map<std::string, std::set<std::string>> allowed = {
     {"correction", {"core", "annotation", "store"}},
     {"events", {"core", "annotation", "correction", "formats", "io", "store"}},
     {"ground", {"core", "annotation", "events", "learning"}},
-    {"diagnosis", {"core", "chain", "rerun", "evaluation", "io", "motion", "scoring", "store"}},
+    {"diagnosis", {"core", "chain", "rerun", "evaluation", "io", "motion", "removal", "scoring", "store"}},
 };
 
 /// What a room of the window may include besides itself; no engine rooms named: any.

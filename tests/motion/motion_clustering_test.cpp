@@ -111,7 +111,7 @@ TEST(MotionClustering, LimitsOfMembersAndNoiseAreParameters) {
     EXPECT_EQ(MotionClustering(options, {0.1, 25, true}).minMembersFor(motion), 19) << "a third of 58";
     options.max_min_members = 15;
     EXPECT_EQ(MotionClustering(options, {0.1, 25, true}).minMembersFor(motion), 15);
-    options.velocity_noise_limit_px = 0.2;
+    options.velocity_noise_limit = 0.2;
     EXPECT_DOUBLE_EQ(MotionClustering(options, kScale).linkageFor(1.0).velocity_floor, 0.2);
     EXPECT_DOUBLE_EQ(MotionClustering(options, kScale).linkageFor(0.15).velocity_floor, 0.15);
     options.velocity_noise_factor = 2;

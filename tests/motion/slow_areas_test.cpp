@@ -254,7 +254,7 @@ struct SlowAreas {
             on_car < options.area_few_corners ? options.area_min_correlation : options.area_sure_correlation;
         for (const auto& area : areas()) {
             const auto moved = shift(area, least);
-            if (!moved || cv::norm(*moved) < std::max(options.area_min_shift_px, min_speed * gap)) continue;
+            if (!moved || cv::norm(*moved) < std::max(options.area_min_shift, min_speed * gap)) continue;
             const cv::Point2d velocity = *moved / gap;
             const cv::Rect2d place = cv::Rect2d(grown(area)) + *moved;
             const auto known =
@@ -314,7 +314,7 @@ TEST(SlowAreas, VectorsAreThoseOfAreasThatWentSomewhere) {
                 options.area_min_size_m2 = k == 2 ? 0 : 1;
                 options.area_min_size_px = k == 2 ? 90 : 8;
                 options.area_max_length_m = k == 3 ? 4.4 : 20;
-                options.area_min_shift_px = k == 4 ? 5 : 1.5;
+                options.area_min_shift = k == 4 ? 5 : 1.5;
                 options.area_min_correlation = k == 5 ? 0.95 : 0.6;
                 MovingAreas areas(options, scale);
                 for (int i = 0; i < 9; ++i)

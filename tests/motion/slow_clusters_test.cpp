@@ -331,7 +331,7 @@ struct SlowClustering {
 
     Linkage linkage() const {
         const double noise =
-            std::min(options.velocity_noise_factor * motion.background_speed_sigma, options.velocity_noise_limit_px);
+            std::min(options.velocity_noise_factor * motion.background_speed_sigma, options.velocity_noise_limit);
         const auto reach = [&](double metres) {
             return std::max(metres / scale.gsd_m_per_px, options.min_distance_px);
         };

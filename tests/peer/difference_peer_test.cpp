@@ -70,7 +70,7 @@ TEST(ThreeFrameBoxes, AreMadeOfAreasAsTheParametersSay) {
     const auto found = [&](const std::vector<cv::Rect>& things, const char* name, const char* value) {
         PeerOptions options;
         options.gap = 1;
-        options.joining_px = 0;
+        options.joining = 0;
         options.min_area_px = 1;
         setParameter(describeOf(options), name, value);
         ThreeFrameBoxes boxes(options);

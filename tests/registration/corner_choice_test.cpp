@@ -120,7 +120,7 @@ std::vector<Chosen> Choice::shared(const std::vector<Chosen>& from, cv::Size siz
 std::vector<cv::Point2f> Choice::slowly(const PaddedPicture& picture) const {
     StrengthLimits limits;
     limits.window_radius = options.tensor_window / 2;
-    limits.min_strength = float(std::pow(surroundings.noise / options.corner_deviation_px, 2));
+    limits.min_strength = float(std::pow(surroundings.noise / options.corner_deviation, 2));
     limits.min_roundness = float(options.min_roundness);
     limits.margin = std::max(surroundings.margin, limits.window_radius + 3);
     std::vector<StrengthPeak> peaks;
@@ -183,7 +183,7 @@ TEST(CornerChoice, AmongLivingCornersFollowsTheSlowOne) {
     const PaddedPicture picture = groundOf({177, 120}, 8, false);
     Choice choice;
     choice.options.min_roundness = 0.2;
-    choice.options.corner_deviation_px = 0.4;
+    choice.options.corner_deviation = 0.4;
     const auto all = CornerDetector(choice.options, test::scaleOf(0.2)).detect(picture, choice.surroundings);
     ASSERT_GT(all.size(), 300U);
     for (const int most : {100, 260, 350}) {

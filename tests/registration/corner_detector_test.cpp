@@ -98,7 +98,7 @@ TEST(CornerDetector, keepsItsDistances) {
         for (const auto& old : first) EXPECT_GT(cv::norm(corner - old), 2.5);  // 0.8 spacing, less refinement
     }
     // Pixels do not get finer than the floor.
-    EXPECT_EQ(CornerDetector(options, scaleOf(5)).spacing(), options.min_corner_distance_px);
+    EXPECT_EQ(CornerDetector(options, scaleOf(5)).spacing(), options.min_corner_distance);
 }
 
 TEST(CornerDetector, capIsKeptAndSharedOut) {

@@ -81,7 +81,7 @@ TEST(RegistrationThresholds, MetresBecomePixelsWithinWhatPixelsAllow) {
         return CornerDetector(with(name, value).corners, test::scaleOf(gsd)).spacing();
     };
     EXPECT_NEAR(spacing("registration.corner_spacing", "3", 0.3), 10, 1e-9);
-    EXPECT_NEAR(spacing("registration.corner_spacing", "3", 3), RegistrationOptions().corners.min_corner_distance_px,
+    EXPECT_NEAR(spacing("registration.corner_spacing", "3", 3), RegistrationOptions().corners.min_corner_distance,
                 1e-9);
     EXPECT_NEAR(spacing("registration.min_corner_distance", "5", 3), 5, 1e-9);
 }

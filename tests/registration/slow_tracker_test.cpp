@@ -173,7 +173,7 @@ TEST(SlowTracker, CornersAreTriedWhereTheyMayHaveGone) {
             for (const double noise : {0.3, 2.0}) {
                 const auto found = scene.tracker.track(scene.set, scene.from, to, guess, noise, frames);
                 ASSERT_EQ(found.size(), scene.set.corners.size());
-                const double step = std::max(4.0, test::scaleOf(0.12).pxPerFrame(options.max_speed_mps)) * frames;
+                const double step = std::max(4.0, test::scaleOf(0.12).pxPerFrame(options.max_speed_m_s)) * frames;
                 const SlowFollower slow{scene, to, guess, noise, frames, step};
                 for (std::size_t i = 0; i < found.size(); ++i) {
                     const TrackedPosition expected = slow.follow(scene.set.corners[i]);
@@ -197,7 +197,7 @@ TEST(SlowTracker, NothingIsFoundFartherThanItsFastest) {
     // The vehicle drives by 2.8 px beside a ground that stands; 4 px may be gone in any case.
     for (const double speed : {1.0, 40.0}) {
         TrackingOptions options;
-        options.max_speed_mps = speed;
+        options.max_speed_m_s = speed;
         Scene scene(options);
         for (TrackedCorner& corner : scene.set.corners) corner.velocity = {6.2F, 0};
         ImagePyramid to;
@@ -268,7 +268,7 @@ std::optional<TrackedCorner> slowlyAdvanced(TrackedCorner corner, const TrackedP
     const cv::Point2f shift = now.position - map.point;
     const cv::Point2f velocity = shift / float(frames);
     if (corner.age > 0 &&
-        cv::norm(velocity - expected) > std::max(options.max_jerk_px, 4 * fit.sigma_px) + cv::norm(expected) / 2)
+        cv::norm(velocity - expected) > std::max(options.max_jerk, 4 * fit.sigma_px) + cv::norm(expected) / 2)
         return std::nullopt;
     corner.velocity = corner.age == 0 ? velocity : 0.4F * expected + 0.6F * velocity;
     const float share = std::max(0.12F, 1 / float(corner.age + 1));
@@ -290,7 +290,7 @@ std::optional<TrackedCorner> slowlyAdvanced(TrackedCorner corner, const TrackedP
     };
     bool renewed = double(now.residual) > 0.5 * options.max_residual * double(now.contrast) ||
                    corner.patch_age >= options.patch_life;
-    if (!renewed && double(window) / 2 * double(away(corner.turn, corner.patch_turn)) > options.patch_deformation_px) {
+    if (!renewed && double(window) / 2 * double(away(corner.turn, corner.patch_turn)) > options.patch_deformation) {
         // What the surrounding does not reach is cut anew.
         std::vector<std::int16_t> any(std::size_t(surroundingSamples(window))),
             patch(std::size_t(patchSamples(window)));

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <opencv2/core.hpp>
 
 #include "core/geometry/angle.h"
 #include "removal/vectors_in_boxes.h"
@@ -103,6 +104,38 @@ TEST(OutlierRemoval, SaysWhichLimitIsBroken) {
     EXPECT_FALSE(broken(400, 300, thesis)) << "the thesis limits the area only";
     EXPECT_FALSE(broken(4, 2.5, thesis));
     EXPECT_TRUE(broken(4, 2.4, thesis));
+}
+
+TEST(OutlierRemoval, SaysOfADetectionWhatItDecided) {
+    FrameMotion motion = sparseMotion();
+    fill(motion, {{100, 100}, 400, 7, 0}, 200);
+    OutlierRemovalOptions options;
+    options.min_density_share = 0;
+    const auto removedAs = [&](const Detection& one) {
+        const Detection removed = removeOutliers({one}, motion, options, kScale)[0];
+        const RemovalVerdict why = whyRemoved(removed, motion, options, kScale);
+        EXPECT_EQ(why.rejection, removed.rejection);
+        return why;
+    };
+    const RemovalVerdict kept = removedAs(detection(100, 100, 18, 7));
+    EXPECT_EQ(kept.parameter, "outliers.min_vectors");
+    EXPECT_GE(kept.value, kept.limit);
+    EXPECT_EQ(removedAs(detection(500, 400, 18, 7)).parameter, "outliers.min_vectors") << "no vector is there";
+    const RemovalVerdict large = removedAs(detection(100, 100, 130, 9));
+    EXPECT_EQ(large.parameter, "outliers.max_length");
+    EXPECT_NEAR(large.value, 130, 1e-9);
+    EXPECT_NEAR(large.limit, 120, 1e-9);
+    EXPECT_TRUE(large.at_most);
+    options.min_vectors = 0;
+    options.min_density_share = 2;
+    motion.corner_count = 200000;
+    EXPECT_EQ(removedAs(detection(100, 100, 18, 7)).parameter, "outliers.min_density_share");
+    // What others rejected is not judged.
+    Detection duplicate = detection(100, 100, 130, 9);
+    duplicate.rejection = Rejection::duplicate;
+    const RemovalVerdict other = whyRemoved(duplicate, motion, options, kScale);
+    EXPECT_EQ(other.rejection, Rejection::duplicate);
+    EXPECT_TRUE(other.parameter.empty());
 }
 
 TEST(OutlierRemoval, LimitsInMetresAreThoseOfThePlace) {

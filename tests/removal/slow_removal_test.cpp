@@ -95,7 +95,7 @@ std::pair<double, OrientedBox> slowUnion(const Detection& a, const Detection& b,
     const auto px = [&](double metres) { return metres / scale.gsd_m_per_px; };
     const OrientedBox both = a.box.area() >= b.box.area() ? unionBox(a.box, b.box) : unionBox(b.box, a.box);
     const double widest = std::max(a.box.width, b.box.width);
-    if (!alike(a.velocity, b.velocity, options.part_velocity_floor_px, options.part_velocity_share) ||
+    if (!alike(a.velocity, b.velocity, options.part_velocity_floor, options.part_velocity_share) ||
         std::abs(turnBetween(a.box.heading, b.box.heading)) * 180 / CV_PI > options.part_max_turn_deg ||
         both.width > std::max({4.0, px(options.part_vehicle_width_m), widest}) || both.width > 1.5 * widest + 1)
         return {0, both};
@@ -217,7 +217,7 @@ std::vector<Detection> slowOutliers(std::vector<Detection> all, const FrameMotio
                  std::min(std::round(options.min_density_share * density * car), double(options.max_min_vectors)));
     for (Detection& detection : all) {
         if (!kept(detection)) continue;
-        slowSupport(detection, motion, options.vector_margin_px, options.compare_velocity);
+        slowSupport(detection, motion, options.vector_margin, options.compare_velocity);
         const double area = std::min(std::max(detection.box.area(), car / 2), 2 * car);
         if (detection.score <= 0) detection.score = double(detection.vectors.size()) / std::max(1.0, density * area);
         const OrientedBox upright = detection.box.upright();
@@ -334,7 +334,7 @@ TEST(SlowRemoval, OutliersBreakALimit) {
         options.min_vectors = int(seed % 4);
         options.min_density_share = 0.1 * (seed % 5);
         options.max_min_vectors = 4 + int(seed % 3) * 4;
-        options.vector_margin_px = 0.4 * (seed % 3) + 0.1;
+        options.vector_margin = 0.4 * (seed % 3) + 0.1;
         options.compare_velocity = seed % 3 != 0;
         options.min_area_px = seed % 2 == 0 ? 40 : 10;
         options.min_length_m = 1.2 + 0.5 * (seed % 3);

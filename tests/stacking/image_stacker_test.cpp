@@ -228,6 +228,7 @@ TEST(ImageStacker, showsAsMuchOfAStackAsIsAskedFor) {
     }
     const Frame frame = world.frameAt(4);
     EXPECT_TRUE(stacker.views(frame, StackPictures::none).at(0).stacked.empty());
+    EXPECT_FALSE(stacker.views(frame, StackPictures::none).at(0).searched) << "25 layers are needed";
     const StackView near = stacker.views(frame, StackPictures::surroundings).at(0);
     const StackView whole = stacker.views(frame, StackPictures::whole_area).at(0);
     EXPECT_EQ(whole.stacked.size(), cv::Size(115, 345));
@@ -266,6 +267,7 @@ TEST(ImageStacker, aStackedRoiHoldsTheExtendedClusterWhereItIs) {
     const FrameMotion motion = world.motionAt(7);
     const auto rois = stacker.replace(cluster, 6, extended, motion);
     ASSERT_EQ(rois.size(), 1U);
+    EXPECT_TRUE(stacker.views(world.frameAt(7), StackPictures::none).at(0).searched);
     const MotionRoi& roi = rois[0];
     EXPECT_EQ(roi.cluster, 6);
     EXPECT_EQ(roi.velocity, cluster.velocity);

@@ -283,7 +283,7 @@ TEST(SlowStacking, MastersAndTheirVectorsAreThoseOfTheBook) {
         options.area_length_m = 40;
         options.area_width_m = 18;
         options.max_speed_difference = 0.04 + 0.04 * (seed % 3);
-        options.max_turn_degrees = 2 + 2 * (seed % 4);
+        options.max_turn_deg = 2 + 2 * (seed % 4);
         const SceneScale scale{0.3, 25, true};
         ImageStacker stacker(options, scale);
         SlowStacks slow(options);
@@ -321,7 +321,7 @@ TEST(SlowStacking, MastersAndTheirVectorsAreThoseOfTheBook) {
                     if (std::abs(cv::norm(stack.pose.velocity) - speed) > options.max_speed_difference * speed)
                         continue;
                     const double turn = std::remainder(stack.pose.heading - cluster.box.heading, 2 * CV_PI);
-                    if (std::abs(turn) * 180 / CV_PI > options.max_turn_degrees) continue;
+                    if (std::abs(turn) * 180 / CV_PI > options.max_turn_deg) continue;
                     if (stack.height < options.min_height || !cluster.box.contains(stack.pose.position)) continue;
                     const OrientedBox whole{stack.pose.position, double(area.height), double(area.width),
                                             stack.pose.heading};

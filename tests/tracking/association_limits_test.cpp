@@ -220,13 +220,13 @@ TEST(PartLimits, PartsAreFusedWhereThatFitsThePredictionBetter) {
 
 TEST(VehicleLimit, IsAMultipleOfTheUsualCarAndThreePixels) {
     TrackerOptions options;
-    options.one_vehicle_factor = 1.5;
+    options.one_vehicle = 1.5;
     options.car_length_m = 4;
     options.car_width_m = 2;
     const VehicleLimit limit = VehicleLimit::of(options, {0.25, 25, true});
     EXPECT_NEAR(limit.length, 27, 1e-9);
     EXPECT_NEAR(limit.width, 15, 1e-9);
-    options.one_vehicle_factor = 0;
+    options.one_vehicle = 0;
     EXPECT_EQ(VehicleLimit::of(options, {0.25, 25, true}).length, 0);
 }
 

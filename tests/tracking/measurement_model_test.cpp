@@ -30,7 +30,7 @@ TrackerOptions roundOptions() {
     options.size_gate = 2;
     options.car_length_m = 5;
     options.car_width_m = 2;
-    options.one_vehicle_factor = 1.5;
+    options.one_vehicle = 1.5;
     return options;
 }
 
@@ -90,7 +90,7 @@ TEST(MeasurementModel, AnEndGrowsWhereItReachesBeyondByMoreThanNoiseDoes) {
         options.size_gate = 9;
         EXPECT_EQ(updated({{300 + beyond / 2, 200}, 20 + beyond, 10, 0}, predicted, options).grows, beyond > 5.657);
         EXPECT_EQ(updated({{300 - beyond / 2, 200}, 20 + beyond, 10, 0}, predicted, options).grows, beyond > 5.657);
-        options.one_vehicle_factor = 3;
+        options.one_vehicle = 3;
         EXPECT_EQ(updated({{300, 200 + beyond / 2}, 20, 10 + beyond, 0}, predicted, options).grows, beyond > 5.657);
         EXPECT_EQ(updated({{300, 200 - beyond / 2}, 20, 10 + beyond, 0}, predicted, options).grows, beyond > 5.657);
     }

@@ -20,7 +20,7 @@ bool duplicates(const OrientedBox& box, cv::Point2d velocity, const Track& track
 /// Of two boxes that move alike the overlap and the containment decide, not their common size.
 TrackerOptions byOverlap() {
     TrackerOptions options;
-    options.one_vehicle_factor = 0;
+    options.one_vehicle = 0;
     return options;
 }
 

@@ -215,7 +215,8 @@ TEST(TrackerReference, ADoubledDetectionIsToldAndSoIsASuppressedTrack) {
         }
         tracker.next(scene.motion(frame), detections, &trace);
     }
-    EXPECT_EQ(trace.doubled, std::vector<int>{1});
+    ASSERT_EQ(trace.doubled.size(), 1U);
+    EXPECT_EQ(trace.doubled.front().detection, 1);
     EXPECT_TRUE(trace.started.empty());
     // Two that drive into one another.
     scene.objects = {{{100, 100}, {2, 0}, 20, 10, 0}, {{130, 100}, {1.7, 0}, 20, 10, 100}};

@@ -184,7 +184,7 @@ std::vector<TrackerOptions> kindsOfTracking() {
     TrackerOptions whole = blind;
     whole.adapt_size = false;
     whole.visible_overlap = false;
-    whole.one_vehicle_factor = 0;
+    whole.one_vehicle = 0;
     return {TrackerOptions{}, TrackerOptions::thesis(), by_look, blind, whole};
 }
 

@@ -103,6 +103,11 @@ double containment(const OrientedBox& a, const OrientedBox& b) {
     return std::clamp(intersectionArea(a, b) / smaller, 0.0, 1.0);
 }
 
+bool atPlace(const OrientedBox& box, const OrientedBox& place) {
+    constexpr double kSamePlace = 0.2;
+    return box.contains(place.centre) || place.contains(box.centre) || overlap(box, place) >= kSamePlace;
+}
+
 OrientedBox unionBox(const OrientedBox& a, const OrientedBox& b) {
     std::vector<cv::Point2d> points;
     for (const auto& corner : a.corners()) points.push_back(corner);

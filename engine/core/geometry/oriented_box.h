@@ -38,6 +38,9 @@ double overlap(const OrientedBox& a, const OrientedBox& b);
 /// Share of the smaller box's area that lies inside the other, in [0, 1].
 double containment(const OrientedBox& a, const OrientedBox& b);
 
+/// Whether a box means a place: one of them holds the middle of the other, or they overlap by a fifth.
+bool atPlace(const OrientedBox& box, const OrientedBox& place);
+
 /// Smallest box with the given heading around all `points`; empty at the origin when there is none.
 template <class Points>
 OrientedBox boxAround(const Points& points, double heading);

@@ -17,6 +17,7 @@ enum class Rejection {
     outlier,    ///< fewer than T_out motion vectors inside (Teutsch §5.5.2)
     size        ///< outside the size limits
 };
+inline constexpr int kRejectionCount = static_cast<int>(Rejection::size) + 1;
 
 /// A moving object as seen in one frame, before tracking.
 struct Detection {

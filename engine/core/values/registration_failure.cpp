@@ -48,4 +48,8 @@ std::string describe(const RegistrationFailure& failure) {
     return text;
 }
 
+const char* parameterOf(const RegistrationFailure& failure) {
+    return failure.of > 0 ? "registration.min_inliers" : "";
+}
+
 }  // namespace eyrie

@@ -34,4 +34,7 @@ std::string nameOf(RegistrationFault fault, PictureQuality picture);
 /// For people: "blurred picture: too few corners agree (12 of 40)". Empty without a fault.
 std::string describe(const RegistrationFailure& failure);
 
+/// The parameter that says how many corners are needed; empty where none were counted.
+const char* parameterOf(const RegistrationFailure& failure);
+
 }  // namespace eyrie

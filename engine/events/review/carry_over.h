@@ -31,7 +31,7 @@ struct CarriedVerdicts {
 
 /// Finds the events that verdicts were made on, in the run that was judged or in another of the same video. Kind, zone
 /// and sense must be the same, the times near (`carry_time_s`), and the vehicle at the verdict's frame near the
-/// verdict's place on the ground as this run registers it (`carry_distance_m`; `carry_picture_px` where it does not
+/// verdict's place on the ground as this run registers it (`carry_distance_m`; `carry_picture` where it does not
 /// connect the frames). Where its track does not reach that frame, the place of the event counts. The nearest pairs are
 /// made first; the result depends on nothing but the arguments.
 CarriedVerdicts carryOver(const std::map<int, Verdict>& verdicts, const std::vector<Event>& events,

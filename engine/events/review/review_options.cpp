@@ -11,13 +11,13 @@ void ReviewOptions::describe(ParameterVisitor& visitor) {
                   ""});
     declare.real("review.carry_distance", carry_distance_m, 0, 200,
                  {"m", "Such an event's vehicle must also be no farther from it than this on the ground.", ""});
-    declare.real("review.carry_picture", carry_picture_px, 0, 1000,
+    declare.real("review.carry_picture", carry_picture, 0, 1000,
                  {"px", "The same in the picture, where the run does not connect the two frames.", ""});
     declare.real(
         "review.join_unsearched", join_unsearched_s, 0, 60,
         {"s", "Frames that could not be registered form one stretch where less than this lies between them.", ""});
     declare.integer(
-        "review.rare", rare_count, 0, 10000,
+        "review.rare", rare, 0, 10000,
         {"events", "Kinds with no more events than this are put before an operator early. 0: no kind is rare.", ""});
     declare.real("review.unsure_score", unsure_score, 0, 1,
                  {"", "Events of tracks with a lower score are unsure and come before the rest. 0: none.", ""});

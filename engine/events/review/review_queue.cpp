@@ -53,7 +53,7 @@ std::vector<QueueItem> reviewQueue(const std::vector<Event>& events, const std::
         Place place{{QueueGroup::rest, true, i}, 0, event.first_frame};
         if (event.kind == EventKind::lost) {
             place.item.group = QueueGroup::lost;
-        } else if (count <= options.rare_count) {
+        } else if (count <= options.rare) {
             place.item.group = QueueGroup::rare;
             place.rarity = count;
         } else if (unsure.at(i)) {

@@ -30,7 +30,7 @@ std::vector<bool> unsureEvents(const std::vector<Event>& events, const StoredTra
                                const ReviewOptions& options = {});
 
 /// All events and stretches, each once, judged or not: what could not be searched, what was lost in mid-picture, kinds
-/// of which there are at most `rare_count` (the rarest first), unsure ones, the rest; in time within each group. Those
+/// of which there are at most `rare` (the rarest first), unsure ones, the rest; in time within each group. Those
 /// lost are never rare. `unsure` is as long as `events`. Order it when events change, not with every verdict, so that
 /// things stay where they are.
 std::vector<QueueItem> reviewQueue(const std::vector<Event>& events, const std::vector<FrameSpan>& unsearched,

@@ -84,8 +84,8 @@ std::optional<double> VehicleDistance::ofPlace(const ReviewSubject& subject, con
         return onGround(cv::norm(there - event.place) * ground_.metresHere(event.frame, event.place));
     }
     const double px = cv::norm(subject.place - event.place);
-    if (!(px <= options_.carry_picture_px)) return std::nullopt;
-    return options_.carry_picture_px > 0 ? px / options_.carry_picture_px : 0;
+    if (!(px <= options_.carry_picture)) return std::nullopt;
+    return options_.carry_picture > 0 ? px / options_.carry_picture : 0;
 }
 
 }  // namespace eyrie

@@ -57,7 +57,7 @@ Linkage MotionClustering::linkageFor(double background_speed_sigma) const {
     linkage.slope = scale_.slope;
     linkage.reach(scale_.px(options_.along_m), scale_.px(options_.across_m), std::max(options_.min_distance_px, 1e-3));
     const double noise =
-        std::min(options_.velocity_noise_factor * background_speed_sigma, options_.velocity_noise_limit_px);
+        std::min(options_.velocity_noise_factor * background_speed_sigma, options_.velocity_noise_limit);
     linkage.velocity_floor = std::max(options_.velocity_floor_px, noise);
     linkage.velocity_share = options_.velocity_share;
     return linkage;

@@ -49,7 +49,7 @@ void MotionClusteringOptions::describe(ParameterVisitor& visitor) {
                   "Linked vectors may always differ in velocity by this many deviations of the background's residual "
                   "speed, too.",
                   ""});
-    declare.real("clustering.velocity_noise_limit", velocity_noise_limit_px, 0, 5,
+    declare.real("clustering.velocity_noise_limit", velocity_noise_limit, 0, 5,
                  {"px/frame", "The background's noise does not raise the allowed difference beyond this.", ""});
     declare.integer("clustering.min_members", min_members, 1, 1000, {"vectors", "Smaller clusters are dropped.", ""});
     declare.real("clustering.min_density_share", min_density_share, 0, 2,

@@ -192,7 +192,7 @@ void MovingAreaOptions::describe(ParameterVisitor& visitor) {
                     {"px²", "Areas of fewer pixels are left out, whatever the scale.", ""});
     declare.real("motion.area_max_length", area_max_length_m, 0.1, 1000, {"m", "Longer areas are left out.", ""});
     declare.real(
-        "motion.area_min_shift", area_min_shift_px, 0, 50,
+        "motion.area_min_shift", area_min_shift, 0, 50,
         {"px", "Areas that moved less between two of the pictures may be misregistered and are left out.", ""});
     declare.real("motion.area_min_correlation", area_min_correlation, -1, 1,
                  {"", "Lowest correlation of an area's pixels with where they went and where they came from.", ""});
@@ -304,8 +304,7 @@ std::vector<MotionVector> MovingAreas::infer(const FrameMotion& motion,
             const auto min_correlation = correlationNeeded(motion, place);
             if (!min_correlation) continue;
             const auto shift = shiftOf(areas[at], *min_correlation);
-            if (shift &&
-                std::hypot(shift->x, shift->y) >= std::max(options_.area_min_shift_px, min_speed(place) * gap_))
+            if (shift && std::hypot(shift->x, shift->y) >= std::max(options_.area_min_shift, min_speed(place) * gap_))
                 shifts[at] = shift;
         }
     });

@@ -24,7 +24,7 @@ struct MovingAreaOptions {
     double area_min_size_m2 = 1;        ///< smaller areas are no vehicle …
     int area_min_size_px = 8;           ///< … whatever the scale
     double area_max_length_m = 20;      ///< longer ones neither
-    double area_min_shift_px = 1.5;     ///< between two of the pictures; smaller shifts may be misregistration
+    double area_min_shift = 1.5;        ///< between two of the pictures; smaller shifts may be misregistration
     double area_min_correlation = 0.8;  ///< of an area's pixels with where they went …
     double area_sure_correlation = 0.93;  ///< … where corners nearly suffice
 

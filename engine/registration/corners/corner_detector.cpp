@@ -171,7 +171,7 @@ void CornerOptions::describe(ParameterVisitor& visitor) {
     declare.real(
         "registration.corner_spacing", corner_spacing_m, 0.05, 20,
         {"m", "Distance between corners. Smaller: more motion vectors on each vehicle, more time.", "Teutsch §4.2"});
-    declare.real("registration.min_corner_distance", min_corner_distance_px, 1.5, 50,
+    declare.real("registration.min_corner_distance", min_corner_distance, 1.5, 50,
                  {"px", "Corners are never closer than this, however coarse the picture.", ""});
     declare.integer(
         "registration.max_corners", max_corners, 100, 50000,
@@ -179,7 +179,7 @@ void CornerOptions::describe(ParameterVisitor& visitor) {
          "Largest number of corners tracked at a time; above it they are thinned out evenly, least near moving ones.",
          ""});
     declare.real(
-        "registration.corner_deviation", corner_deviation_px, 0.05, 5,
+        "registration.corner_deviation", corner_deviation, 0.05, 5,
         {"px",
          "A corner is strong enough when the picture's noise moves it by no more than this standard deviation. "
          "Larger: weaker corners too.",
@@ -198,13 +198,13 @@ void CornerOptions::describe(ParameterVisitor& visitor) {
 
 CornerDetector::CornerDetector(const CornerOptions& options, const SceneScale& scale)
     : options_(options),
-      spacing_px_(std::clamp(scale.px(options.corner_spacing_m), options.min_corner_distance_px, 64.0)) {}
+      spacing_px_(std::clamp(scale.px(options.corner_spacing_m), options.min_corner_distance, 64.0)) {}
 
 std::vector<cv::Point2f> CornerDetector::detect(const PaddedPicture& picture,
                                                 const CornerSurroundings& surroundings) const {
     StrengthLimits limits;
     limits.window_radius = options_.tensor_window / 2;
-    const double ratio = surroundings.noise / options_.corner_deviation_px;
+    const double ratio = surroundings.noise / options_.corner_deviation;
     limits.min_strength = static_cast<float>(ratio * ratio);
     limits.min_roundness = static_cast<float>(options_.min_roundness);
     limits.margin = std::max(surroundings.margin, limits.window_radius + 3);

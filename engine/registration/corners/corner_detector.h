@@ -12,9 +12,9 @@ namespace eyrie {
 /// Where corners are looked for and how many are kept.
 struct CornerOptions {
     double corner_spacing_m = 0.6;
-    double min_corner_distance_px = 2;
+    double min_corner_distance = 2;
     int max_corners = 12000;
-    double corner_deviation_px = 0.5;
+    double corner_deviation = 0.5;
     double min_roundness = 0.05;
     int tensor_window = 3;
     bool favour_movers = true;  ///< the cap does not thin out corners near moving ones

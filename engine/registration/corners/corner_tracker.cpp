@@ -192,10 +192,10 @@ void TrackingOptions::describe(ParameterVisitor& visitor) {
          "Teutsch §4.2"});
     declare.real("registration.max_residual", max_residual, 0.02, 2,
                  {"", "A corner is lost when its grey levels differ by more than this share of its own contrast.", ""});
-    declare.real("registration.max_speed", max_speed_mps, 1, 500,
+    declare.real("registration.max_speed", max_speed_m_s, 1, 500,
                  {"m/s", "Nothing on the ground is faster; a corner that seems to be is lost.", ""});
     declare.real(
-        "registration.max_jerk", max_jerk_px, 0.2, 50,
+        "registration.max_jerk", max_jerk, 0.2, 50,
         {"px/frame",
          "A corner whose motion over the ground changes by more than this (and half its speed) in one frame has "
          "slipped and is lost.",
@@ -206,7 +206,7 @@ void TrackingOptions::describe(ParameterVisitor& visitor) {
          "A corner is compared with the patch stored this many frames ago at most. Longer: less drift; 1: from "
          "frame to frame.",
          ""});
-    declare.real("registration.patch_deformation", patch_deformation_px, 0.01, 5,
+    declare.real("registration.patch_deformation", patch_deformation, 0.01, 5,
                  {"px", "The patch is turned and scaled with the picture whenever this moves its border by more.", ""});
     declare.flag(
         "registration.leave_out_stuck", leave_out_stuck,
@@ -220,7 +220,7 @@ void TrackingOptions::describe(ParameterVisitor& visitor) {
 CornerTracker::CornerTracker(const TrackingOptions& options, const SceneScale& scale)
     : options_(options),
       window_(oddWindow(scale.px(options.window_m))),
-      max_step_px_(std::max(4.0, scale.pxPerFrame(options.max_speed_mps))) {}
+      max_step_px_(std::max(4.0, scale.pxPerFrame(options.max_speed_m_s))) {}
 
 void CornerTracker::add(CornerSet& set, const std::vector<cv::Point2f>& positions, const PaddedPicture& picture,
                         CornerId& next_id) const {
@@ -329,7 +329,7 @@ void CornerTracker::advance(CornerSet& set, const std::vector<TrackedPosition>& 
             const cv::Point2f velocity = shift * (1.0F / float(frames));
             if (corner.age > 0) {
                 const double allowed =
-                    std::max(options_.max_jerk_px, 4 * fit.sigma_px) + 0.5 * std::sqrt(double(squareOf(expected)));
+                    std::max(options_.max_jerk, 4 * fit.sigma_px) + 0.5 * std::sqrt(double(squareOf(expected)));
                 if (squareOf(velocity - expected) > allowed * allowed) continue;
             }
             corner.velocity = corner.age == 0 ? velocity : expected + kFollow * (velocity - expected);
@@ -350,7 +350,7 @@ void CornerTracker::advance(CornerSet& set, const std::vector<TrackedPosition>& 
             lives[std::size_t(i)] = 1;
             const bool faded = now.residual > 0.5 * options_.max_residual * now.contrast;
             bool renew = faded || corner.patch_age >= options_.patch_life;
-            if (!renew && half * difference(corner.turn, corner.patch_turn) > options_.patch_deformation_px) {
+            if (!renew && half * difference(corner.turn, corner.patch_turn) > options_.patch_deformation) {
                 renew = !turnPatch(set.surrounding(corner), window_, corner.turn, set.patch(corner));
                 corner.patch_turn = corner.turn;
             }

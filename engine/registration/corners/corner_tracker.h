@@ -16,10 +16,10 @@ namespace eyrie {
 struct TrackingOptions {
     double window_m = 0.6;
     double max_residual = 0.3;
-    double max_speed_mps = 60;
-    double max_jerk_px = 0.5;
+    double max_speed_m_s = 60;
+    double max_jerk = 0.5;
     int patch_life = 100;
-    double patch_deformation_px = 0.08;
+    double patch_deformation = 0.08;
     bool leave_out_stuck = false;
 
     void describe(ParameterVisitor& visitor);

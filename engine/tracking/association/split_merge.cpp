@@ -214,9 +214,9 @@ double median(std::vector<double> values) {
 }  // namespace
 
 VehicleLimit VehicleLimit::of(const TrackerOptions& options, const SceneScale& scale) {
-    if (!(options.one_vehicle_factor > 0)) return {};
-    return {options.one_vehicle_factor * scale.px(options.car_length_m) + kBoxMargin,
-            options.one_vehicle_factor * scale.px(options.car_width_m) + kBoxMargin, kBoxMargin, scale.slope};
+    if (!(options.one_vehicle > 0)) return {};
+    return {options.one_vehicle * scale.px(options.car_length_m) + kBoxMargin,
+            options.one_vehicle * scale.px(options.car_width_m) + kBoxMargin, kBoxMargin, scale.slope};
 }
 
 FrameAssociation associateDetections(const OverlapMatrix& matrix, const std::vector<MovingBox>& detections,

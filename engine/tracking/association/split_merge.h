@@ -47,7 +47,7 @@ struct VehicleLimit {
     double width = 0;   ///< there
     double margin = 0;  ///< px in both that do not depend on the scale
     ScaleSlope slope = {};
-    /// The usual car of the options times `one_vehicle_factor`, and what gradients widen a box by.
+    /// The usual car of the options times `one_vehicle`, and what gradients widen a box by.
     static VehicleLimit of(const TrackerOptions& options, const SceneScale& scale);
     bool holds(const OrientedBox& box) const {
         if (slope.isFlat()) return box.length <= length && box.width <= width;

@@ -113,8 +113,8 @@ void StacksPanel::showView(const std::shared_ptr<const ReplayView>& view) {
     if (view->wish.stacks == StackPictures::none) return;  // asked for by others
     view_ = view;
     const StackingOptions& options = view->options.stacking;
-    const auto used = std::count_if(view->stacks.begin(), view->stacks.end(),
-                                    [&](const StackView& stack) { return stack.height >= options.min_height; });
+    const auto used =
+        std::count_if(view->stacks.begin(), view->stacks.end(), [](const StackView& stack) { return stack.searched; });
     QString summary = tr("%1 stacks, %2 high enough to be searched (%3 of at most %4 layers)")
                           .arg(view->stacks.size())
                           .arg(used)

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "canvas/drawing/image_convert.h"
+#include "removal/rejection_counts.h"
 
 namespace eyrie::ui {
 
@@ -242,6 +243,24 @@ void addDifferences(std::vector<ChipCard>& cards, const ReplayView& view, const 
     cards.push_back(card(std::move(moving)));
 }
 
+/// "1 of 3: 1 duplicate, 1 outlier".
+QString removalNote(const RejectionCounts& counts) {
+    QStringList removed;
+    const auto add = [&](Rejection rejection, const char* one, const char* many) {
+        const int count = counts[rejection];
+        if (count > 0) removed << (count == 1 ? translated(one) : translated(many).arg(count));
+    };
+    add(Rejection::duplicate, QT_TRANSLATE_NOOP("StageChips", "1 duplicate"),
+        QT_TRANSLATE_NOOP("StageChips", "%1 duplicates"));
+    add(Rejection::outlier, QT_TRANSLATE_NOOP("StageChips", "1 outlier"),
+        QT_TRANSLATE_NOOP("StageChips", "%1 outliers"));
+    add(Rejection::size, QT_TRANSLATE_NOOP("StageChips", "1 of a wrong size"),
+        QT_TRANSLATE_NOOP("StageChips", "%1 of a wrong size"));
+    QString note = translated("%1 of %2").arg(counts.kept()).arg(counts.delivered());
+    if (!removed.isEmpty()) note += QStringLiteral(": ") + removed.join(QStringLiteral(", "));
+    return note;
+}
+
 Chip keptChip(const ReplayView& view, const SearchTrace& traced) {
     Chip chip = greyChip(translated("Kept"), traced.roi.image);
     std::vector<OrientedBox> kept;
@@ -249,7 +268,7 @@ Chip keptChip(const ReplayView& view, const SearchTrace& traced) {
         if (detection.cluster == view.wish.cluster && detection.rejection == Rejection::none)
             kept.push_back(detection.box);
     chip.boxes = inRoi(traced.roi, kept);
-    chip.note = translated("%1 of %2").arg(kept.size()).arg(traced.detections.size());
+    chip.note = removalNote(countRejections(view.result.detections, view.wish.cluster));
     return chip;
 }
 
@@ -313,11 +332,10 @@ std::vector<ChipCard> stackChips(const ReplayView& view) {
         made.chips.push_back(greyChip(translated("Raw chip"), stack.raw));
         made.chips.back().note =
             stack.related.size() == 1 ? translated("1 vector") : translated("%1 vectors").arg(stack.related.size());
-        const bool used = stack.height >= view.options.stacking.min_height;
         made.chips.push_back(greyChip(translated("Stacked image"), stack.stacked));
         made.chips.back().note =
-            used ? translated("height %1").arg(stack.height)
-                 : translated("height %1 of %2").arg(stack.height).arg(view.options.stacking.min_height);
+            stack.searched ? translated("height %1").arg(stack.height)
+                           : translated("height %1 of %2").arg(stack.height).arg(view.options.stacking.min_height);
         cards.push_back(std::move(made));
     }
     return cards;
