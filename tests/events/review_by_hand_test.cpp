@@ -130,7 +130,7 @@ TEST(ReviewByHand, ARareKindHasAsManyEventsAsThatAndAnUnsureTrackLess) {
     const std::vector<Event> events = {lasting(1, 2), lasting(3, 4)};
     const auto groupWith = [&](int rare) {
         ReviewOptions options;
-        options.rare_count = rare;
+        options.rare = rare;
         return reviewQueue(events, {}, {false, false}, options).at(0).group;
     };
     EXPECT_EQ(groupWith(2), QueueGroup::rare);
