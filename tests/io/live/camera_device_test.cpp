@@ -47,6 +47,7 @@ struct Plugged {
 class CameraStreams : public testing::Test {
  protected:
     LiveOptions options(std::vector<Plugged> plugged) {
+        turn_ = 0;
         LiveOptions options;
         options.recording = folder_ / "recorded.ts";
         options.give_up_s = 1;
