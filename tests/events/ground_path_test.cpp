@@ -58,7 +58,7 @@ GroundPath passing(double direction_deg) {
 }  // namespace
 
 TEST(GroundPath, SpeedsAreTheSlopeOfALineThroughASecond) {
-    // x = 0.01 t² px. Over t − 12 … t + 12 the line has the slope 0.02 t and lies 0.01 · 26 above the parabola; at the
+    // x = 0.01 t² px. Over t − 12 … t + 12 the line has the slope 0.02 t and lies 0.01 · 52 above the parabola; at the
     // first of 13 samples it has the slope 0.12 and lies 0.01 · 22 below.
     const Footage footage = standingCamera();
     const GroundStretches ground(footage);
@@ -70,7 +70,7 @@ TEST(GroundPath, SpeedsAreTheSlopeOfALineThroughASecond) {
     EXPECT_NEAR(path.samples[100].speed, 2 * 0.2 * 25, 1e-9);
     EXPECT_NEAR(path.samples[100].velocity.x, 10, 1e-9);
     EXPECT_NEAR(path.samples[100].velocity.y, 0, 1e-9);
-    EXPECT_NEAR(path.samples[100].at.x, (100 + 0.26) * 0.2, 1e-9);
+    EXPECT_NEAR(path.samples[100].at.x, (100 + 0.52) * 0.2, 1e-9);
     EXPECT_NEAR(path.samples[100].at.y, 60, 1e-9);
     EXPECT_NEAR(path.samples[50].speed, 5, 1e-9);
     EXPECT_NEAR(path.samples[0].speed, 0.12 * 0.2 * 25, 1e-9);

@@ -190,7 +190,7 @@ TEST(Trainer, saysWhenSamplesAreMissing) {
 TEST(Trainer, optionsAreDeclared) {
     TrainingOptions options;
     const auto parameters = listParameters(describeOf(options));
-    EXPECT_EQ(parameters.size(), 16U);
+    EXPECT_EQ(parameters.size(), 17U);
     for (const Parameter& parameter : parameters) EXPECT_THAT(parameter.name, testing::StartsWith("training."));
     EXPECT_THROW(setParameter(describeOf(options), "training.trees", "0"), Error);
     setParameter(describeOf(options), "training.trees", "77");
