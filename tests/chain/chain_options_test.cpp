@@ -256,6 +256,7 @@ TEST(ChainOptions, theThesisPresetDiffersFromTheDefaultsWhereItMust) {
         {"finishing.min_detected", "0"},
         {"finishing.standing_height", "0"},
         {"finishing.standing_depth", "0"},
+        {"finishing.roof_height", "0"},
         {"finishing.min_score", "0"},
         {"finishing.join_parts", "false"},
     };

@@ -38,6 +38,7 @@ ChainOptions nothingDropped() {
     options.finishing.drop_shadows = false;
     options.finishing.min_detected = 0;
     options.finishing.standing_height = 0;
+    options.finishing.roof_height = 0;
     options.finishing.standing_depth = 0;
     options.finishing.min_score = 0;
     return options;

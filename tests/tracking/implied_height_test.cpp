@@ -81,13 +81,14 @@ struct Circling {
     }
     double heightOf(cv::Point3d from) const { return impliedOf(pathOf(from)).value().height; }
 
-    /// Why such a track is dropped though it looks like a vehicle in every frame; nothing: it stays.
-    std::optional<TrackDrop> dropped(cv::Point3d from, cv::Point3d step, FinishingOptions options = {}) const {
+    /// Why such a track is dropped though it looks like a vehicle in every frame, or in none; nothing: it stays.
+    std::optional<TrackDrop> dropped(cv::Point3d from, cv::Point3d step, FinishingOptions options = {},
+                                     bool looks = true) const {
         options.min_score = 0;  // judged by its motion alone
         std::vector<TimedState> states;
         for (FrameIndex frame = 0; frame < kFrames; ++frame) states.emplace_back(frame, stateAt(from, step, frame));
         const auto vehicles_at = [&](FrameIndex frame) {
-            return std::vector<OrientedBox>{stateAt(from, step, frame).box};
+            return looks ? std::vector<OrientedBox>{stateAt(from, step, frame).box} : std::vector<OrientedBox>{};
         };
         std::vector<TimedDrop> drops;
         if (!finishTracks(states, motion(), options, kScale, {{}, vehicles_at}, &drops).empty()) return std::nullopt;
@@ -197,6 +198,21 @@ TEST(ImpliedHeight, RoofsAreHigherThanVehiclesAndNoHigherThanAskedFor) {
     FinishingOptions options;
     options.standing_height = 0.4;
     EXPECT_FALSE(camera.stays(roofAt(0.35), kStands, options));
+}
+
+TEST(ImpliedHeight, WhatNeverLookedLikeAVehicleMayStandHigher) {
+    const Circling camera;
+    const auto unlikeStays = [&](double height, FinishingOptions options = {}) {
+        return !camera.dropped(roofAt(height), kStands, options, false);
+    };
+    EXPECT_TRUE(camera.stays(roofAt(0.36)));
+    EXPECT_FALSE(unlikeStays(0.36));
+    EXPECT_FALSE(unlikeStays(0.32));
+    EXPECT_TRUE(unlikeStays(0.4)) << "vehicles that come towards the flight along its way move so";
+    FinishingOptions lower;
+    lower.roof_height = 0;
+    EXPECT_TRUE(unlikeStays(0.36, lower));
+    EXPECT_FALSE(unlikeStays(0.3, lower)) << "standing_height holds for them, too";
 }
 
 TEST(ImpliedHeight, FromAboveWhatLooksLikeAVehicleStays) {

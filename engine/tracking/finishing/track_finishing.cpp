@@ -148,11 +148,18 @@ void FinishingOptions::describe(ParameterVisitor& v) {
         {"",
          "A track that goes along the camera's flow no faster than a standing thing of this share of the flight "
          "height would seem to, and that was never classified as a vehicle, is taken for standing and dropped; in "
-         "oblique views also one that moves just as such a thing would that the camera passes or circles. 0: never.",
+         "oblique views also one that moves just as such a thing would that the camera passes or circles, whatever it "
+         "was classified as. 0: never.",
          ""});
     declare.real(
         "finishing.standing_depth", standing_depth, 0, 0.9,
         {"", "The same against the flow: over relief the plane of the registration may lie above the ground. 0: never.",
+         ""});
+    declare.real(
+        "finishing.roof_height", roof_height, 0, 0.9,
+        {"",
+         "In oblique views a track that moves just as a thing of this share of the flight height would that the camera "
+         "passes or circles, and that was never classified as a vehicle, is taken for standing and dropped. 0: none.",
          ""});
     declare.real("finishing.min_score", min_score, 0, 1,
                  {"",
@@ -185,6 +192,7 @@ FinishingOptions FinishingOptions::thesis() {
     options.join_parts = false;
     options.standing_height = 0;
     options.standing_depth = 0;
+    options.roof_height = 0;
     options.min_score = 0;
     return options;
 }

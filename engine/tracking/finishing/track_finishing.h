@@ -53,6 +53,7 @@ struct FinishingOptions {
     double min_detected = 0.4;
     double standing_height = 0.33;
     double standing_depth = 0.2;
+    double roof_height = 0.38;
     double min_score = 0.2;
     bool join_parts = true;
 

@@ -66,7 +66,9 @@ void dropHardlyDetected(std::vector<TrackPath>& paths, double min_share, const S
 /// Drops tracks that need not move at all: over windows of 24 frames they go along the camera's flow no faster than a
 /// standing thing of `standing_height` would seem to, or against it no faster than one of `standing_depth` below the
 /// plane of the registration, or never faster than that in any direction, and the classifier never took them for a
-/// vehicle. Nothing is dropped where the camera hardly moves.
+/// vehicle. Nothing is dropped where the camera hardly moves. In oblique views also what moves just as a standing thing
+/// would that the camera passes: of up to `standing_height`, or `roof_height` where the classifier never took it for
+/// one.
 void dropStanding(std::vector<TrackPath>& paths, const GroundMotion& ground, const VehicleLooks& looks,
                   const FinishingOptions& options, DropList& dropped);
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "tracking/finishing/flow_comparison.h"
 #include "tracking/finishing/implied_height.h"
 #include "tracking/finishing/track_paths.h"
@@ -26,14 +28,13 @@ bool movesLikeStanding(const TrackPath& path, const GroundMotion& ground, const 
     return above || below || never_moved;
 }
 
-/// Whether a track moves just as a thing of no more than `standing_height` would that stands where the camera passes.
-/// That is so exact an account that it also outweighs what looks like a vehicle.
-bool movesAsPassed(const TrackPath& path, const GroundMotion& ground, const FinishingOptions& options) {
-    if (options.standing_height <= 0) return false;
+/// Whether a track moves just as a thing no higher than `highest` would that stands where the camera passes. That is so
+/// exact an account that up to some height it also outweighs what looks like a vehicle.
+bool movesAsPassed(const TrackPath& path, const GroundMotion& ground, double highest) {
+    if (highest <= 0) return false;
     const auto implied = impliedHeightOf(path, ground);
     return implied && implied->oblique < kOblique && implied->moved > kLeastMoved &&
-           implied->rest < kMostRest * implied->moved && implied->height > kLeastHeight &&
-           implied->height < options.standing_height;
+           implied->rest < kMostRest * implied->moved && implied->height > kLeastHeight && implied->height < highest;
 }
 
 }  // namespace
@@ -41,8 +42,11 @@ bool movesAsPassed(const TrackPath& path, const GroundMotion& ground, const Fini
 void dropStanding(std::vector<TrackPath>& paths, const GroundMotion& ground, const VehicleLooks& looks,
                   const FinishingOptions& options, DropList& dropped) {
     std::erase_if(paths, [&](TrackPath& path) {
-        const bool alike = !looks.contains(path.id) && movesLikeStanding(path, ground, options);
-        if (!alike && !movesAsPassed(path, ground, options)) return false;
+        const bool unlike = !looks.contains(path.id);
+        const double highest =
+            unlike ? std::max(options.standing_height, options.roof_height) : options.standing_height;
+        const bool stands = unlike && movesLikeStanding(path, ground, options);
+        if (!stands && !movesAsPassed(path, ground, highest)) return false;
         drop(path, TrackDrop::could_stand, dropped);
         return true;
     });
