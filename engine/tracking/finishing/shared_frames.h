@@ -33,19 +33,19 @@ class LivingTracks {
  public:
     /// `track`: the number by which it is told again; `first` … `last`: its frames, both included.
     void add(std::size_t track, FrameIndex first, FrameIndex last) {
-        for (FrameIndex part = first / kPart; part <= last / kPart; ++part)
-            parts_[part].push_back({track, first, last});
+        for (FrameIndex span = first / kSpan; span <= last / kSpan; ++span)
+            spans_[span].push_back({track, first, last});
     }
     /// Those that live in one of these frames, by ascending number.
     std::vector<std::size_t> during(FrameIndex first, FrameIndex last) const {
         std::vector<std::size_t> found;
-        for (FrameIndex part = first / kPart; part <= last / kPart; ++part) {
-            const auto there = parts_.find(part);
-            if (there == parts_.end()) continue;
+        for (FrameIndex span = first / kSpan; span <= last / kSpan; ++span) {
+            const auto there = spans_.find(span);
+            if (there == spans_.end()) continue;
             for (const Life& life : there->second) {
-                // Told once, in the first part that both have.
+                // Told once, in the first span that both have.
                 const bool meets = life.first <= last && life.last >= first;
-                if (meets && std::max(life.first, first) / kPart == part) found.push_back(life.track);
+                if (meets && std::max(life.first, first) / kSpan == span) found.push_back(life.track);
             }
         }
         std::sort(found.begin(), found.end());
@@ -53,12 +53,12 @@ class LivingTracks {
     }
 
  private:
-    static constexpr FrameIndex kPart = 64;  ///< frames
+    static constexpr FrameIndex kSpan = 64;  ///< frames
     struct Life {
         std::size_t track = 0;
         FrameIndex first = 0, last = 0;
     };
-    std::unordered_map<FrameIndex, std::vector<Life>> parts_;
+    std::unordered_map<FrameIndex, std::vector<Life>> spans_;
 };
 
 }  // namespace eyrie
