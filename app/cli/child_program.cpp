@@ -44,6 +44,16 @@ std::string tailOf(int file) {
 
 }  // namespace
 
+std::string ChildEnd::lastWords() const {
+    const std::size_t end = errors.find_last_not_of(" \r\n");
+    if (end == std::string::npos) return "ended without a message";
+    const std::size_t before = errors.find_last_of("\r\n", end);
+    const std::size_t begin = before == std::string::npos ? 0 : before + 1;
+    const std::string line = errors.substr(begin, end - begin + 1);
+    const std::string name = "eyrie-cli: ";
+    return line.starts_with(name) ? line.substr(name.size()) : line;
+}
+
 ChildProgram::ChildProgram(const std::vector<std::string>& words, const std::filesystem::path& program) {
     errors_ = memfd_create("errors", MFD_CLOEXEC);
     std::vector<std::string> kept{program == kThisProgram ? "eyrie-cli" : program.filename().string()};

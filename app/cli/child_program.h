@@ -14,6 +14,9 @@ struct ChildEnd {
     int exit_code = 0;   ///< 0 for one that a signal ended; −1: not known
     int signal = 0;      ///< 0: it ended by itself
     std::string errors;  ///< the last of what it wrote to standard error
+
+    /// The last line of these, without the name of this program that it may begin with; says so where there is none.
+    std::string lastWords() const;
 };
 
 /// This program's own file, whatever it is called.

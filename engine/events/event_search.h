@@ -10,7 +10,8 @@
 
 namespace eyrie {
 
-/// How fast a track is over the ground, m/s, smoothed as for events; where it stands, 0.
+/// How fast a track is over the ground, smoothed as for events: m/s by the scale of the footage, be it known or
+/// assumed; where it stands, 0.
 struct SpeedRange {
     double lowest = 0;
     double highest = 0;
@@ -23,9 +24,8 @@ struct TrackFindings {
 };
 
 /// All events of the tracks, by first frame, then kind. Directions, speeds and places are those on the ground; without
-/// a known GSD figures are in px and px/frame. Zones must be without fault;
-/// arrows among them say which way is right. The result depends on nothing but the
-/// arguments.
+/// a known GSD figures are in px and px/frame. Zones must be without fault; arrows among them say which way is right.
+/// The result depends on nothing but the arguments.
 std::vector<Event> findEvents(const std::vector<EventTrack>& tracks, const Footage& footage,
                               const EventOptions& options = {}, const std::vector<Zone>& zones = {});
 /// The same, with how fast the tracks were.

@@ -44,8 +44,8 @@ bool tellClusters(Story& story, std::vector<int>& clusters);
 bool tellDetection(Story& story, const std::vector<int>& clusters, std::vector<int>& detections);
 /// Duplicates and outliers; `detections` keeps those that stayed.
 bool tellRemoval(Story& story, std::vector<int>& detections);
-/// What speaks for a finished track, and against it; nothing where it has no score.
-/// `fate`: passed where the track is in the result, failed where its score kept it out, note where something else did.
+/// What speaks for a finished track, and against it; nothing where it has no score. `fate`: passed where the track is
+/// in the result, failed where its score kept it out, note where something else did.
 void tellScore(Story& story, TrackId track, StepVerdict fate);
 void tellTracks(Story& story, const std::vector<int>& detections, const std::optional<DroppedState>& left_out);
 /// The track at the place that was left out of the result, or would be as it is not confirmed; nothing where one was

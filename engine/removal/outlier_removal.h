@@ -41,10 +41,10 @@ std::optional<BrokenLimit> brokenSizeLimit(const OrientedBox& box, const Outlier
 RemovalVerdict whyRemoved(const Detection& detection, const FrameMotion& motion, const OutlierRemovalOptions& options,
                           const SceneScale& scale);
 
-/// Rejects detections without enough motion vectors inside, of an impossible size, or (if wanted) not wholly in
-/// the image; they stay in the list with
-/// Rejection::outlier or Rejection::size. Sets vectors and velocity from the vectors inside, and the score of
-/// detections that have none: vectors inside per vector expected there at the corner density of the frame.
+/// Rejects detections without enough motion vectors inside, of an impossible size, or (if wanted) not wholly in the
+/// image; they stay in the list with Rejection::outlier or Rejection::size. Sets vectors and velocity from the vectors
+/// inside, and the score of detections that have none: vectors inside per vector expected there at the corner density
+/// of the frame.
 std::vector<Detection> removeOutliers(std::vector<Detection> detections, const FrameMotion& motion,
                                       const OutlierRemovalOptions& options, const SceneScale& scale);
 

@@ -22,17 +22,6 @@ namespace {
 constexpr std::chrono::seconds kBetweenLooks{5};
 constexpr int kBegunAtOnce = 16;  ///< rows
 
-/// The last line that a command said, without the name that it begins with.
-std::string lastWords(const std::string& errors) {
-    const std::size_t end = errors.find_last_not_of(" \r\n");
-    if (end == std::string::npos) return "ended without a message";
-    const std::size_t before = errors.find_last_of("\r\n", end);
-    const std::size_t begin = before == std::string::npos ? 0 : before + 1;
-    const std::string line = errors.substr(begin, end - begin + 1);
-    const std::string name = "eyrie-cli: ";
-    return line.starts_with(name) ? line.substr(name.size()) : line;
-}
-
 std::string signalText(int number) {
     std::string text = "ended by signal " + std::to_string(number);
     if (const char* name = sigabbrev_np(number)) text += std::string(" (SIG") + name + ")";
@@ -199,7 +188,7 @@ void Batch::end(std::size_t number, const ChildEnd& how) {
     if (how.exit_code == exit_stopped || (stopping_ && how.signal == SIGTERM))
         return close(number, BatchState::stopped, "");
     if (how.signal != 0) return close(number, BatchState::failed, signalText(how.signal));
-    if (how.exit_code != exit_ok) return close(number, BatchState::failed, lastWords(how.errors));
+    if (how.exit_code != exit_ok) return close(number, BatchState::failed, how.lastWords());
     close(number, fault.empty() ? BatchState::done : BatchState::failed, fault.empty() ? remark : fault);
 }
 

@@ -46,10 +46,10 @@ struct ExportArguments {
 };
 
 /// Writes and tells; `source` names the sequence where nobody did. The names of some files follow from what is
-/// exported, so that they are checked only now; nothing was written before.
-template <class Labels>
-void writeAndTell(const ExportArguments& arguments, Labels&& labels, const LabelFile& about,
-                  const std::string& source) {
+/// exported, so that they are checked only now; nothing was written before. `stop`: a token, for labels frame by frame.
+template <class Labels, class... Stop>
+void writeAndTell(const ExportArguments& arguments, Labels&& labels, const LabelFile& about, const std::string& source,
+                  const Stop&... stop) {
     ExportOptions options = arguments.options;
     if (arguments.clip) options.clip = true;
     if (arguments.keep) options.clip = false;
@@ -59,8 +59,9 @@ void writeAndTell(const ExportArguments& arguments, Labels&& labels, const Label
     std::vector<std::filesystem::path> inputs(about.further_files.begin(), about.further_files.end());
     inputs.insert(inputs.end(), {arguments.project, arguments.from});
     arguments.outputs.check(outputFiles(arguments.out, arguments.format, options), inputs);
-    std::fputs(reportText(writeLabels(std::forward<Labels>(labels), arguments.out, arguments.format, options)).c_str(),
-               stdout);
+    const ExportReport report =
+        writeLabels(std::forward<Labels>(labels), arguments.out, arguments.format, options, stop...);
+    std::fputs(reportText(report).c_str(), stdout);
     for (const std::string& note : notes) std::printf("  note        %s\n", note.c_str());
 }
 
@@ -97,7 +98,7 @@ void exportVmti(const ExportArguments& arguments, const RunRecord& run, const La
     for (const std::string& note : labels.about.notes) std::printf("  note        %s\n", note.c_str());
 }
 
-void exportRun(const ExportArguments& arguments, ProjectFile& project) {
+void exportRun(const ExportArguments& arguments, ProjectFile& project, const std::stop_token& stop) {
     const RunStore store(project);
     const RunRecord run = chosenRun(store, arguments.project, arguments.run);
     const bool own = arguments.detections || arguments.uncorrected;
@@ -106,25 +107,38 @@ void exportRun(const ExportArguments& arguments, ProjectFile& project) {
     const bool as_video = arguments.format == kVmtiFormat;
     if (as_video) arguments.outputs.check({{arguments.out, FileKind::video}}, {run.sequence.path, arguments.project});
     LabelStream labels = arguments.detections ? labelStreamOf(store, run, true) : labelStreamOf(store, run, corrected);
-    const InterruptGuard interrupt;
-    const auto open = [&] { return openInput(run.sequence.path, 0, interrupt.token(), run.sequence.frame_rate_hz); };
-    const auto video =
-        addWorld(arguments.format, labels, project, run, open, startOf(arguments.start), interrupt.token());
-    if (as_video) return exportVmti(arguments, run, labels, *video, interrupt.token());
-    writeAndTell(arguments, labels, labels.about, run.sequence.path);
+    const auto open = [&] { return openInput(run.sequence.path, 0, stop, run.sequence.frame_rate_hz); };
+    const auto video = addWorld(arguments.format, labels, project, run, open, startOf(arguments.start), stop);
+    if (as_video) return exportVmti(arguments, run, labels, *video, stop);
+    writeAndTell(arguments, labels, labels.about, run.sequence.path, stop);
 }
 
-void exportLabels(const ExportArguments& arguments) {
+/// Answers the exit code.
+int exportLabels(const ExportArguments& arguments) {
     if (arguments.format == kVmtiFormat && (!arguments.from.empty() || arguments.labels))
         throw Error(ErrorKind::parameter, "vmti is written from runs: give --project and, if need be, --run");
     if (arguments.format == kVmtiFormat && arguments.detections)
         throw Error(ErrorKind::parameter,
                     "vmti holds targets that are followed, which detections are not: leave --detections out, or choose "
                     "another format");
-    if (!arguments.from.empty()) return exportFile(arguments);
+    if (!arguments.from.empty()) {
+        exportFile(arguments);
+        return exit_ok;
+    }
     ProjectFile project = openForReading(arguments.project);
-    if (arguments.labels) return exportAnnotations(arguments, project);
-    exportRun(arguments, project);
+    if (arguments.labels) {
+        exportAnnotations(arguments, project);
+        return exit_ok;
+    }
+    const InterruptGuard interrupt;
+    try {
+        exportRun(arguments, project, interrupt.token());
+    } catch (const Error&) {
+        // Whatever it was at when it was stopped says so as an error.
+        if (interrupt.token().stop_requested()) return exit_stopped;
+        throw;
+    }
+    return exit_ok;
 }
 
 }  // namespace
@@ -171,8 +185,7 @@ void addExportCommand(CLI::App& app, int& exit_code) {
         if (arguments->from.empty() == arguments->project.empty()) {
             throw Error(ErrorKind::parameter, "export needs something to write: --project P.eyrie or --from FILE");
         }
-        exportLabels(*arguments);
-        exit_code = exit_ok;
+        exit_code = exportLabels(*arguments);
     });
 }
 

@@ -5,6 +5,8 @@
 
 #include <cerrno>
 #include <chrono>
+#include <optional>
+#include <string>
 #include <thread>
 
 #include "cli/child_program.h"
@@ -73,8 +75,8 @@ bool writeReport(const std::filesystem::path& out, const ReportFile& report, con
         std::this_thread::sleep_for(kLookAtPrinter);
     }
     if (end->exit_code == 0 && end->signal == 0) return true;
-    const std::string why = end->errors.empty() ? std::string("the program eyrie ended early") : end->errors;
-    throw Error(ErrorKind::output, displayText(out) + ": the PDF was not written: " + why.substr(0, why.find('\n')));
+    // Qt may have warned of something before.
+    throw Error(ErrorKind::output, displayText(out) + ": the program eyrie did not write the PDF: " + end->lastWords());
 }
 
 }  // namespace eyrie::cli

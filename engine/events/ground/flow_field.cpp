@@ -7,6 +7,7 @@
 #include "core/geometry/angle.h"
 
 namespace eyrie {
+
 std::size_t FlowField::binOf(double direction) {
     const double turns = direction / (2 * kPi);
     const int bin = static_cast<int>((turns - std::floor(turns)) * kBins);

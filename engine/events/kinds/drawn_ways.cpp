@@ -1,6 +1,7 @@
 #include "events/kinds/drawn_ways.h"
 
 #include <cmath>
+#include <utility>
 
 namespace eyrie {
 
@@ -22,7 +23,7 @@ std::optional<DrawnWay> DrawnWays::at(const GroundSample& sample) const {
         for (std::size_t i = 1; i < arrow.points.size(); ++i) {
             const cv::Point2d from = onGround(arrow.points[i - 1]), to = onGround(arrow.points[i]);
             const double far = distanceTo({from, to}, false, sample.at);
-            if (far > least || from == to) continue;
+            if (!(far <= least) || from == to) continue;  // nor what lies on the horizon
             least = far;
             nearest = DrawnWay{arrow.zone, std::atan2(to.y - from.y, to.x - from.x)};
         }

@@ -52,14 +52,14 @@ bool isWithin(FrameIndex frame, const std::vector<FrameSpan>& spans) {
                        [frame](const FrameSpan& span) { return frame >= span.first && frame <= span.last; });
 }
 
-/// Whether events of a kind are there only where a zone is watched. Who drives against the flow does so with and
-/// without an arrow that says it.
-bool needsZone(EventKind kind) {
+/// Whether events of a kind are the same one only by the same zone, or none. Who drives against the flow does so with
+/// and without an arrow that says it.
+bool isByZone(EventKind kind) {
     return kind != EventKind::against_flow;
 }
 
 bool isOfSameZone(const ReviewSubject& subject, const Event& event) {
-    return !needsZone(event.kind) || event.zone == subject.zone;
+    return !isByZone(event.kind) || event.zone == subject.zone;
 }
 
 class Carrier {
@@ -111,7 +111,7 @@ class Carrier {
     CarryFault faultOf(const ReviewSubject& subject, bool met, const std::vector<Zone>& zones) const {
         if (met) return CarryFault::taken;
         const bool watched =
-            subject.zone.empty() || (subject.kind && !needsZone(*subject.kind)) ||
+            subject.zone.empty() || (subject.kind && !isByZone(*subject.kind)) ||
             std::any_of(zones.begin(), zones.end(), [&](const Zone& zone) { return zone.name == subject.zone; });
         const bool searched =
             isOfRun(subject.frame) && (!subject.kind.has_value() || !isWithin(subject.frame, unsearched_));

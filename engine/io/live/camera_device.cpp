@@ -20,6 +20,7 @@ namespace {
 
 constexpr int kWantedWidth = 1920;
 constexpr int kWantedHeight = 1080;
+constexpr int kMostDamaged = 10;  ///< pictures in a row
 
 /// A device that is open for as long as something is asked of it.
 class AskedDevice {
@@ -114,10 +115,13 @@ class OpenCvCamera : public CameraDevice {
     }
     bool read(cv::Mat& picture) override {
         try {
-            return capture_.read(picture) && picture.type() == CV_8UC3;
+            // A JPEG that was damaged on the way is left out; the camera is still there.
+            for (int damaged = 0; damaged <= kMostDamaged && capture_.grab(); ++damaged)
+                if (capture_.retrieve(picture) && !picture.empty()) return picture.type() == CV_8UC3;
         } catch (const cv::Exception&) {
-            return false;
+            // It was pulled out while it was asked.
         }
+        return false;
     }
     double frameRate() const override { return std::max(0.0, capture_.get(cv::CAP_PROP_FPS)); }
 

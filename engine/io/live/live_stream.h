@@ -43,9 +43,9 @@ struct LiveFacts {
 struct StreamEnded {};
 
 /// Video that comes as it is made, over the net from the first key frame on, or from a camera of this machine, encoded
-/// here. A thread of its own receives, records and decodes;
-/// frames must be read in their order. A frame that was left out is answered by the picture before it, in the same
-/// memory, with its own number and time, so that numbers are those of the recording.
+/// here. A thread of its own receives, records and decodes; frames must be read in their order. A frame that was left
+/// out is answered by the picture before it, in the same memory, with its own number and time, so that numbers are
+/// those of the recording.
 class LiveStream : public FrameSource {
  public:
     /// Waits for the first picture. Throws Error(input) when none comes in time, the address is of no use, or no

@@ -10,8 +10,6 @@
 
 namespace eyrie {
 
-namespace {}  // namespace
-
 struct VideoWriter::Implementation {
     std::filesystem::path path;
     std::filesystem::path part;  ///< where it is written until it is complete; a device or pipe itself

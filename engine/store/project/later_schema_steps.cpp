@@ -457,4 +457,7 @@ void addVideoStarts(SQLite::Database& database) {
     database.exec("ALTER TABLE sequence ADD COLUMN start_utc TEXT NOT NULL DEFAULT ''");
 }
 
+// Zones may be arrows. The tables are the same; versions before do not know the word, and should say so at once.
+void addArrows(SQLite::Database&) {}
+
 }  // namespace eyrie::schema

@@ -21,7 +21,8 @@ constexpr std::array kMigrations{addRuns,          addLabels,        addComparis
                                  addViews,         addReview,        addScaleOrigins,
                                  addZones,         addScaleSlopes,   addKeptDetails,
                                  addEvidence,      addCorrections,   addLocalScales,
-                                 addAssumedRates,  addCompactStates, addVideoStarts};
+                                 addAssumedRates,  addCompactStates, addVideoStarts,
+                                 addArrows};
 
 }  // namespace
 

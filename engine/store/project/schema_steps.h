@@ -29,5 +29,6 @@ void addLocalScales(SQLite::Database& database);
 void addAssumedRates(SQLite::Database& database);
 void addCompactStates(SQLite::Database& database);
 void addVideoStarts(SQLite::Database& database);
+void addArrows(SQLite::Database& database);
 
 }  // namespace eyrie::schema

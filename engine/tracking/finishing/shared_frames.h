@@ -1,5 +1,10 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <unordered_map>
+#include <vector>
+
 #include "tracking/finishing/track_paths.h"
 #include "tracking/ground_motion.h"
 
@@ -22,5 +27,38 @@ void forSharedFrames(const TrackPath& a, const TrackPath& b, Visit visit) {
         }
     }
 }
+
+/// Which of many tracks live at one time with another. An hour has hundreds of thousands, most of which never meet.
+class LivingTracks {
+ public:
+    /// `track`: the number by which it is told again; `first` … `last`: its frames, both included.
+    void add(std::size_t track, FrameIndex first, FrameIndex last) {
+        for (FrameIndex span = first / kSpan; span <= last / kSpan; ++span)
+            spans_[span].push_back({track, first, last});
+    }
+    /// Those that live in one of these frames, by ascending number.
+    std::vector<std::size_t> during(FrameIndex first, FrameIndex last) const {
+        std::vector<std::size_t> found;
+        for (FrameIndex span = first / kSpan; span <= last / kSpan; ++span) {
+            const auto there = spans_.find(span);
+            if (there == spans_.end()) continue;
+            for (const Life& life : there->second) {
+                // Told once, in the first span that both have.
+                const bool meets = life.first <= last && life.last >= first;
+                if (meets && std::max(life.first, first) / kSpan == span) found.push_back(life.track);
+            }
+        }
+        std::sort(found.begin(), found.end());
+        return found;
+    }
+
+ private:
+    static constexpr FrameIndex kSpan = 64;  ///< frames
+    struct Life {
+        std::size_t track = 0;
+        FrameIndex first = 0, last = 0;
+    };
+    std::unordered_map<FrameIndex, std::vector<Life>> spans_;
+};
 
 }  // namespace eyrie

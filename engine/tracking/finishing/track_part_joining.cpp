@@ -110,19 +110,29 @@ void joinParts(std::vector<TrackPath>& paths, const SceneScale& scale) {
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return paths[a].states.size() > paths[b].states.size(); });
+    LivingTracks living;  // by their place in the order
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const TrackPath& path = paths[order[i]];
+        if (!path.states.empty()) living.add(i, path.firstFrame(), path.lastFrame());
+    }
     for (std::size_t i = 0; i < order.size(); ++i) {
         TrackPath& leader = paths[order[i]];
+        if (leader.states.empty()) continue;
         for (bool grown = true; grown;) {
             grown = false;
-            for (std::size_t k = i + 1; k < order.size(); ++k) {
+            std::vector<std::size_t> beside = living.during(leader.firstFrame(), leader.lastFrame());
+            for (auto next = std::upper_bound(beside.begin(), beside.end(), i); next != beside.end();) {
+                const std::size_t k = *next++;
                 TrackPath& other = paths[order[k]];
-                if (leader.states.empty() || other.states.empty()) continue;
-                if (other.firstFrame() > leader.lastFrame() || other.lastFrame() < leader.firstFrame()) continue;
+                if (other.states.empty()) continue;
                 const auto whole = wholeOf(leader, other, scale);
                 if (!whole) continue;
                 join(leader, other, *whole);
                 other.states.clear();
                 grown = true;
+                // It lives longer now, beside others, too.
+                beside = living.during(leader.firstFrame(), leader.lastFrame());
+                next = std::upper_bound(beside.begin(), beside.end(), k);
             }
         }
     }

@@ -133,14 +133,13 @@ void dropSharers(std::vector<TrackPath>& paths, double max_sharing, const SceneS
     }
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return strength[a] > strength[b]; });
+    LivingTracks stronger_ones;  // by their place in the order
     for (std::size_t k = 0; k < order.size(); ++k) {
         TrackPath& weaker = paths[order[k]];
-        for (std::size_t s = 0; s < k && !weaker.states.empty(); ++s) {
+        if (weaker.states.empty()) continue;
+        for (const std::size_t s : stronger_ones.during(weaker.firstFrame(), weaker.lastFrame())) {
+            if (weaker.states.empty()) break;
             const TrackPath& stronger = paths[order[s]];
-            if (stronger.states.empty() || stronger.firstFrame() > weaker.lastFrame() ||
-                weaker.firstFrame() > stronger.lastFrame()) {
-                continue;
-            }
             const Sharing sharing = sharingOf(stronger, weaker, scale);
             const auto shorter = static_cast<double>(std::min(stronger.states.size(), weaker.states.size()));
             if (sharing.frames < kFewestShared || sharing.frames < kSharedOfShorter * shorter) continue;
@@ -155,6 +154,7 @@ void dropSharers(std::vector<TrackPath>& paths, double max_sharing, const SceneS
             giveWay(weaker, stronger, max_sharing / 2, dropped);
             if (2 * weaker.states.size() < before) drop(weaker, TrackDrop::shares_place, dropped, stronger.id);
         }
+        if (!weaker.states.empty()) stronger_ones.add(k, weaker.firstFrame(), weaker.lastFrame());
     }
     std::erase_if(paths, [](const TrackPath& path) { return path.states.empty(); });
 }

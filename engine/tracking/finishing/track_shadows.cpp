@@ -41,7 +41,6 @@ Beside besideOf(const TrackPath& vehicle, const TrackPath& other) {
 }
 
 bool isShadowOf(const TrackPath& shadow, const TrackPath& vehicle, const SceneScale& everywhere) {
-    if (shadow.firstFrame() > vehicle.lastFrame() || vehicle.firstFrame() > shadow.lastFrame()) return false;
     const Beside beside = besideOf(vehicle, shadow);
     const SceneScale scale = everywhere.at(middleOf(shadow));
     const auto frames = static_cast<double>(beside.along.size());
@@ -58,12 +57,18 @@ bool isShadowOf(const TrackPath& shadow, const TrackPath& vehicle, const SceneSc
 
 void dropShadows(std::vector<TrackPath>& paths, const SceneScale& scale, DropList& dropped) {
     std::vector<TrackId> vehicle_of(paths.size(), 0);
-    std::vector<int> detections;  // counted once: an hour has tens of thousands of paths
-    for (const TrackPath& path : paths) detections.push_back(path.statesOf(StateOrigin::detected));
+    std::vector<int> detections;
+    LivingTracks living;
     for (std::size_t i = 0; i < paths.size(); ++i) {
-        for (std::size_t other = 0; other < paths.size() && vehicle_of[i] == 0; ++other)
-            if (detections[i] < kDetected * detections[other] && isShadowOf(paths[i], paths[other], scale))
-                vehicle_of[i] = paths[other].id;
+        detections.push_back(paths[i].statesOf(StateOrigin::detected));
+        living.add(i, paths[i].firstFrame(), paths[i].lastFrame());
+    }
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        const std::vector<std::size_t> others = living.during(paths[i].firstFrame(), paths[i].lastFrame());
+        const auto vehicle = std::find_if(others.begin(), others.end(), [&](std::size_t other) {
+            return detections[i] < kDetected * detections[other] && isShadowOf(paths[i], paths[other], scale);
+        });
+        if (vehicle != others.end()) vehicle_of[i] = paths[*vehicle].id;
     }
     std::size_t at = 0;
     std::erase_if(paths, [&](TrackPath& path) {

@@ -15,6 +15,7 @@ class PictureEncoder {
  public:
     /// Throws what makes an Error of what went wrong, and of libav's code (0: none).
     using Fail = std::function<void(const std::string& what, int reason)>;
+    /// Gets a packet, stamped by the time base of codec(), which it may take over; it is gone afterwards.
     using Visit = std::function<void(AVPacket& packet)>;
 
     /// All images have this size; odd sizes are grown by a row or column. `header_apart`: what a decoder has to know
