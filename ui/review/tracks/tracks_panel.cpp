@@ -162,10 +162,8 @@ void TracksPanel::setDoings(const std::shared_ptr<const DoingsByTrack>& doings) 
     if (doings_ == doings) return;
     doings_ = doings;
     chips_->setDoings(doings);
-    tracks_->setDoings(doings);
-    if (!chips_->filter().any()) return;
-    filterTracks();
-    tellQuery();
+    if (chips_->filter().any()) filterTracks();
+    tracks_->setDoings(doings);  // tells that the query is another, too
 }
 
 std::shared_ptr<const TrackQuery> TracksPanel::query() const {
@@ -207,9 +205,8 @@ void TracksPanel::useFilter() {
 void TracksPanel::setLikeness(const std::shared_ptr<const LikenessByTrack>& likeness) {
     if (likeness_ == likeness || (likeness && likeness->chosen != like_)) return;
     likeness_ = likeness;
-    tracks_->setLikeness(likeness);
     filterTracks();
-    tellQuery();
+    tracks_->setLikeness(likeness);  // tells that the query is another, too
 }
 
 void TracksPanel::orderByLikeness(bool wanted) {
