@@ -18,8 +18,9 @@ struct ClockOfFrames {
     /// What that rests on, for people; empty where nobody knows.
     std::function<QString()> origin = [] { return QString(); };
     /// The first frame taken at a time of the day in UTC (s since midnight) or later; behind the last frame where the
-    /// video ends before it. Nothing where nobody knows.
-    std::function<std::optional<FrameIndex>(double seconds)> frame_of_day = [](double) {
+    /// video ends before it. Of the days that on which `near`, told likewise, is nearest to the video. Nothing where
+    /// nobody knows.
+    std::function<std::optional<FrameIndex>(double seconds, double near)> frame_of_day = [](double, double) {
         return std::optional<FrameIndex>();
     };
 

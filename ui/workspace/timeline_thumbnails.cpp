@@ -21,7 +21,8 @@ namespace {
 
 constexpr std::size_t kKept_bytes = std::size_t{24} << 20U;
 constexpr int kAskEvery_ms = 60;
-constexpr double kGrid_px = 4;  ///< places of the timeline that are nearer share a picture
+constexpr int kKeptOpen_ms = 20'000;  ///< once the pointer is gone
+constexpr double kGrid_px = 4;        ///< places of the timeline that are nearer share a picture
 constexpr int kAbove_px = 4;
 
 }  // namespace
@@ -41,6 +42,7 @@ TimelineThumbnails::TimelineThumbnails(ProjectSession& session, TimelineView& ti
       caption_(new QLabel(popup_)),
       known_(kKept_bytes),
       ask_due_(kAskEvery_ms, [this] { ask(); }),
+      close_due_(kKeptOpen_ms, [this] { closeVideo(); }),
       opened_(std::make_shared<Opened>()) {
     popup_->setAttribute(Qt::WA_ShowWithoutActivating);
     popup_->setAttribute(Qt::WA_TransparentForMouseEvents);
@@ -92,6 +94,7 @@ void TimelineThumbnails::pointAt(FrameIndex frame, int x) {
 void TimelineThumbnails::hide() {
     wanted_.reset();
     ask_due_.stop();
+    close_due_.start();
     if (popup_ != nullptr) popup_->hide();
 }
 
@@ -99,11 +102,17 @@ void TimelineThumbnails::forgetVideo() {
     hide();
     query_.cancel();
     known_.clear();
+    closeVideo();
+}
+
+void TimelineThumbnails::closeVideo() {
+    close_due_.stop();
     query_.post([opened = opened_](const BackgroundTask&) { opened->source.reset(); });
 }
 
 void TimelineThumbnails::ask() {
     if (!wanted_ || !session_.media()) return;
+    close_due_.stop();
     const auto work = [this, frame = *wanted_, media = *session_.media(),
                        opened = opened_](const BackgroundTask& task) {
         QImage picture;

@@ -46,6 +46,7 @@ class TimelineThumbnails : public QObject {
     void pointAt(FrameIndex frame, int x);
     void hide();
     void forgetVideo();
+    void closeVideo();
     void ask();
     void take(FrameIndex frame, const QImage& picture);
     void show(FrameIndex frame, const QImage& picture);
@@ -62,6 +63,7 @@ class TimelineThumbnails : public QObject {
     int x_ = 0;
     LruCache<FrameIndex, QImage> known_;
     DelayedCall ask_due_;
+    DelayedCall close_due_;           ///< what decodes holds many pictures
     std::shared_ptr<Opened> opened_;  ///< used in the background alone
     BackgroundQuery query_;           ///< last: stops before the rest goes
 };

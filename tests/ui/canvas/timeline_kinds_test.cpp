@@ -147,6 +147,13 @@ class TimelineKindsTest : public QObject {
         QCOMPARE(wanted.back().front().toBool(), true);
         view->setKindsShown(true);
         QCOMPARE(view->sizeHint().height(), height);
+        wanted.clear();
+        view->showAround(10, 20, 0);
+        const double zoomed = view->axis().pixelsPerFrame();
+        QTest::mouseClick(view.get(), Qt::LeftButton, {}, gutter);
+        QTest::mouseDClick(view.get(), Qt::LeftButton, {}, gutter);
+        QVERIFY2(wanted.count() >= 2, "each click counts");
+        QCOMPARE(view->axis().pixelsPerFrame(), zoomed);
         view->setTimes({0, 40'000});
         QVERIFY2(view->kinds().empty(), "of another video");
     }

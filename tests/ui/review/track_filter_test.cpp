@@ -168,7 +168,7 @@ class TrackFilterTest : public QObject {
         QVERIFY(filter.holds(trackOf(3), kMetres, {}));
 
         // Begun at 22:08:00; a frame is a second.
-        const TrackFacts clock{.frame_of_day = [](double seconds) {
+        const TrackFacts clock{.frame_of_day = [](double seconds, double) {
             return std::optional<FrameIndex>(static_cast<FrameIndex>(seconds) - 79'680);
         }};
         filter.time = {timeLimitOf(QStringLiteral("22:10:05")), timeLimitOf(QStringLiteral("22:20"))};
@@ -180,6 +180,34 @@ class TrackFilterTest : public QObject {
         QVERIFY(!filter.holds(trackOf(1), kMetres, clock));
         filter.time.to = timeLimitOf(QStringLiteral("22:09:40"));  // shown for all of its second
         QVERIFY(filter.holds(trackOf(1), kMetres, clock));
+    }
+
+    void twoTimesOfTheDayAreOfTheDaysThatFitTheVideo() {
+        // What is asked for, in seconds: from and to, each with what lies between them.
+        std::vector<double> asked;
+        const FrameOfDay frame_of_day = [&](double seconds, double near) {
+            asked.insert(asked.end(), {seconds, near});
+            return std::optional<FrameIndex>(static_cast<FrameIndex>(asked.size()));
+        };
+        const auto framesAsked = [&](const char* from, const char* to) {
+            asked.clear();
+            return framesOf({timeLimitOf(QString::fromLatin1(from)), timeLimitOf(QString::fromLatin1(to))},
+                            frame_of_day);
+        };
+        const FrameSpan day = framesAsked("06:00", "22:00");
+        QCOMPARE(day.first, 2);
+        QCOMPARE(day.last, 3);
+        QCOMPARE(asked, (std::vector<double>{21'600, 50'400.5, 79'201, 50'400.5}));
+        framesAsked("22:00", "06:00");  // over midnight
+        QCOMPARE(asked, (std::vector<double>{79'200, 93'600.5, 108'001, 93'600.5}));
+        framesAsked("22:00", "");
+        QCOMPARE(asked, (std::vector<double>{79'200, 79'200}));
+
+        int times = 0;
+        const FrameOfDay once = remembering([&](double, double) { return std::optional<FrameIndex>(++times); });
+        QCOMPARE(once(1, 1), std::optional(1));
+        QCOMPARE(once(1, 1), std::optional(1));
+        QCOMPARE(once(1, 2), std::optional(2));
     }
 
     void statesAreOfTheFrameShownOrOfTheWholeTrack() {
@@ -316,7 +344,7 @@ class TrackFilterTest : public QObject {
         clock.time = [](FrameIndex) { return QStringLiteral("22:08:00"); };
         clock.origin = [] { return QStringLiteral("the start time given"); };
         int begin = 79'680;
-        clock.frame_of_day = [&](double seconds) {
+        clock.frame_of_day = [&](double seconds, double) {
             return std::optional<FrameIndex>(static_cast<FrameIndex>(seconds) - begin);
         };
         model.setClock(clock);

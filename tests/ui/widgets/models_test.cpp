@@ -235,6 +235,21 @@ class ModelsTest : public QObject {
         QCOMPARE(proxy.rowCount(), 6);
     }
 
+    void whoLooksThroughTheRowsIsToldOnceThatAnotherFilterHolds() {
+        TracksModel model;
+        TableSortProxy proxy;
+        proxy.setSourceModel(&model);
+        model.setTracks(several(9, sampleTrack), {});
+        const QSignalSpy filtered(&proxy, &TableSortProxy::filtered);
+        int steps = 0;
+        QObject::connect(&proxy, &QAbstractItemModel::rowsRemoved, &proxy, [&] { steps += proxy.filtering() ? 1 : 0; });
+        proxy.setRowFilter([](int row) { return row % 2 == 0; });
+        QCOMPARE(proxy.rowCount(), 5);
+        QCOMPARE(steps, 4);
+        QCOMPARE(filtered.count(), 1);
+        QVERIFY(!proxy.filtering());
+    }
+
     void rowsCopyAsText() {
         RunsModel model;
         RunRecord run = sampleRun(1);

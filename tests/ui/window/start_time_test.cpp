@@ -126,18 +126,25 @@ class StartTimeTest : public QObject {
     void aTimeOfTheDayLeadsToItsFrame() {
         const auto window = test::windowWithRun();  // of 25 Hz
         QVERIFY(window);
-        QVERIFY(!earth(*window).frameOfDay(8 * 3600));
+        const auto frameOf = [&](double seconds) { return earth(*window).frameOfDay(seconds, seconds); };
+        QVERIFY(!frameOf(8 * 3600));
         StartTimeDialog* dialog = ask(*window);
         QVERIFY(dialog != nullptr);
         dialog->field().setDateTime(kBegin);  // at 08:00:00
         QVERIFY(test::press(*dialog, QStringLiteral("OK")));
         QVERIFY(tells(*window, QStringLiteral("the start time given")));
-        QCOMPARE(earth(*window).frameOfDay(8 * 3600), std::optional(0));
-        QCOMPARE(earth(*window).frameOfDay(8 * 3600 + 1), std::optional(25));
-        QCOMPARE(earth(*window).frameOfDay(8 * 3600 - 60), std::optional(0));
+        QCOMPARE(frameOf(8 * 3600), std::optional(0));
+        QCOMPARE(frameOf(8 * 3600 + 1), std::optional(25));
+        QCOMPARE(frameOf(8 * 3600 - 60), std::optional(0));
         const int count = static_cast<int>(window->session().timesUs().size());
-        QCOMPARE(earth(*window).frameOfDay(9 * 3600), std::optional(count));
-        QCOMPARE(earth(*window).frameOfDay(23 * 3600), std::optional(0));  // rather of the evening before
+        QCOMPARE(frameOf(9 * 3600), std::optional(count));
+        QCOMPARE(frameOf(23 * 3600), std::optional(0));  // rather of the evening before
+        // From 06:00 to 23:00, and from 22:00 to 09:00: what lies between is nearest.
+        constexpr double kDay = 14.5 * 3600, kNight = 27.5 * 3600;
+        QCOMPARE(earth(*window).frameOfDay(6 * 3600, kDay), std::optional(0));
+        QCOMPARE(earth(*window).frameOfDay(23 * 3600, kDay), std::optional(count));
+        QCOMPARE(earth(*window).frameOfDay(22 * 3600, kNight), std::optional(0));
+        QCOMPARE(earth(*window).frameOfDay(33 * 3600, kNight), std::optional(count));
     }
 
     void whatIsCancelledChangesNothingAndWithoutAVideoNobodyIsAsked() {

@@ -320,7 +320,10 @@ void TimelineView::mouseReleaseEvent(QMouseEvent* event) {
 }
 
 void TimelineView::mouseDoubleClickEvent(QMouseEvent* event) {
-    if (event->button() == Qt::LeftButton && event->position().x() < axis_.left()) showAll();
+    if (isFoldSwitch(event->position()))
+        mousePressEvent(event);  // the second of two clicks on it
+    else if (event->button() == Qt::LeftButton && event->position().x() < axis_.left())
+        showAll();
 }
 
 void TimelineView::wheelEvent(QWheelEvent* event) {

@@ -127,19 +127,21 @@ ClockOfFrames VideoEarth::clock() const {
                 },
             .text = [this](FrameIndex frame) { return clockText(frame); },
             .origin = [this] { return clockOrigin(); },
-            .frame_of_day = [this](double seconds) { return frameOfDay(seconds); }};
+            .frame_of_day = [this](double seconds, double near) { return frameOfDay(seconds, near); }};
 }
 
-std::optional<FrameIndex> VideoEarth::frameOfDay(double seconds) const {
+std::optional<FrameIndex> VideoEarth::frameOfDay(double seconds, double near) const {
     constexpr std::int64_t kDay_us = 86'400'000'000;
     const auto& times = session_.timesUs();
     if (times.empty()) return std::nullopt;
     const auto begin = clock_.at(times.front()), end = clock_.at(times.back());
     if (!begin || !end) return std::nullopt;
-    // Of the days that the video touches; of one that it does not, the time that is nearer to it.
-    std::int64_t wanted = *begin - *begin % kDay_us + std::llround(seconds * 1e6);
-    if (wanted < *begin && wanted + kDay_us - *end < *begin - wanted) wanted += kDay_us;
-    if (wanted > *end && *begin - (wanted - kDay_us) < wanted - *end) wanted -= kDay_us;
+    std::int64_t midnight = *begin - *begin % kDay_us;
+    const std::int64_t middle = midnight + std::llround(near * 1e6);
+    // The day after or before, where that is nearer to the video.
+    if (middle < *begin && middle + kDay_us - *end < *begin - middle) midnight += kDay_us;
+    if (middle > *end && *begin - (middle - kDay_us) < middle - *end) midnight -= kDay_us;
+    const std::int64_t wanted = midnight + std::llround(seconds * 1e6);
     const auto place = std::partition_point(times.begin(), times.end(), [&](std::int64_t video_us) {
         const auto utc_us = clock_.at(video_us);
         return utc_us && *utc_us < wanted;

@@ -46,7 +46,7 @@ class VideoEarth : public QObject {
     /// These, for whoever shows them beside frames. To be used as long as this object lives.
     ClockOfFrames clock() const;
     /// ClockOfFrames::frame_of_day.
-    std::optional<FrameIndex> frameOfDay(double seconds) const;
+    std::optional<FrameIndex> frameOfDay(double seconds, double near) const;
     /// µs since 1970-01-01 at a moment of the video; nothing where nobody knows.
     std::optional<std::int64_t> utcAt(std::int64_t video_us) const { return clock_.at(video_us); }
     /// When the video began, as a person said and the project keeps it.

@@ -220,6 +220,7 @@ void EventReview::adoptSoFar(const std::shared_ptr<const FoundEvents>& found, in
     // Zero: limits were changed meanwhile, which is to be seen at once.
     if (next_look_ != LookClock::time_point{})
         next_look_ = LookClock::now() + std::chrono::milliseconds(static_cast<std::int64_t>(1000 * pause_s));
+    if (found->run->shown_s.empty()) return;  // no frame is done yet
     found_ = found;
     setState(State::at_work);
 }

@@ -108,7 +108,8 @@ void EventsPanel::buildButtons() {
     report->setMenu(choices);
     buttons->addWidget(report);
     limits_button_ = addSwitch(tr("Limits"), tr("What counts as an event"));
-    zones_button_ = addSwitch(tr("Zones"), tr("Areas and lines that are watched: draw, name, delete them"));
+    zones_button_ = addSwitch(
+        tr("Zones"), tr("Areas and lines that are watched, and arrows for the right way: draw, name, delete them"));
     bindSwitches(this, {{limits_button_, [this](bool on) { showThresholds(on); }},
                         {zones_button_, [this](bool on) { showZones(on); }}});
     layout()->addWidget(line);
@@ -241,15 +242,15 @@ QString EventsPanel::countedText() const {
         listed += passes ? 1 : 0;
         hidden_by_query += passes ? 0 : 1;
     }
+    if (all == 0 && !as_of_) return {};
+    QString text;
     if (as_of_) {
-        QString so_far = tr("As of frame %1").arg(QLocale().toString(*as_of_));
-        if (all > 0) so_far += tr(" · to be judged when the run has ended");
-        if (listed < all) so_far += tr(" · %1 of %2 shown").arg(listed).arg(all);
-        return so_far;
+        text = tr("As of frame %1").arg(QLocale().toString(*as_of_));
+        if (all > 0) text += tr(" · to be judged when the run has ended");
+    } else {
+        text = tr("%1 of %2 judged").arg(judged).arg(all);
+        if (seen_) text += tr(" · %1 % of the time seen").arg(static_cast<int>(100 * *seen_));
     }
-    if (all == 0) return {};
-    QString text = tr("%1 of %2 judged").arg(judged).arg(all);
-    if (seen_) text += tr(" · %1 % of the time seen").arg(static_cast<int>(100 * *seen_));
     if (listed < all) text += tr(" · %1 of %2 shown").arg(listed).arg(all);
     if (hidden_by_query > 0) text += tr(" · %1 hidden by the filter on tracks").arg(hidden_by_query);
     return text;

@@ -4,6 +4,9 @@
 #include <QJsonValue>
 #include <QRegularExpression>
 #include <limits>
+#include <map>
+#include <memory>
+#include <utility>
 
 namespace eyrie::ui {
 
@@ -11,6 +14,12 @@ namespace {
 
 const QString kFromWord = QStringLiteral("from");
 const QString kToWord = QStringLiteral("to");
+constexpr double kDay_s = 86'400;
+
+/// Since midnight; nothing for a frame, or no limit.
+std::optional<double> secondsOfDay(const std::optional<TimeLimit>& limit) {
+    return limit && limit->of_day ? std::optional<double>(limit->value) : std::nullopt;
+}
 
 QJsonValue jsonOf(const TimeLimit& limit) {
     return limit.of_day ? QJsonValue(timeLimitText(limit)) : QJsonValue(limit.value);
@@ -44,18 +53,29 @@ QString timeLimitText(const TimeLimit& limit) {
     return limit.value % 60 == 0 ? minutes : minutes + QLatin1Char(':') + two(limit.value % 60);
 }
 
+FrameOfDay remembering(FrameOfDay ask) {
+    using Known = std::map<std::pair<double, double>, std::optional<FrameIndex>>;
+    return [ask = std::move(ask), known = std::make_shared<Known>()](double seconds, double near) {
+        const auto [place, is_new] = known->try_emplace({seconds, near});
+        if (is_new) place->second = ask(seconds, near);
+        return place->second;
+    };
+}
+
 FrameSpan framesOf(const TimeRange& range, const FrameOfDay& frame_of_day) {
     FrameSpan frames{std::numeric_limits<FrameIndex>::min(), std::numeric_limits<FrameIndex>::max()};
-    const auto frameAt = [&](int seconds) { return frame_of_day ? frame_of_day(seconds) : std::nullopt; };
-    if (range.from && !range.from->of_day)
-        frames.first = range.from->value;
-    else if (range.from)
-        frames.first = frameAt(range.from->value).value_or(frames.first);
-    if (range.to && !range.to->of_day)
-        frames.last = range.to->value;
-    else if (range.to)
-        // Lists show times without what follows the seconds: what they show as this very one belongs to it.
-        if (const auto behind = frameAt(range.to->value + 1)) frames.last = *behind - 1;
+    if (range.from && !range.from->of_day) frames.first = range.from->value;
+    if (range.to && !range.to->of_day) frames.last = range.to->value;
+    if (!range.ofDay() || !frame_of_day) return frames;
+    const std::optional<double> begin = secondsOfDay(range.from);
+    std::optional<double> end = secondsOfDay(range.to);
+    // Lists show times without what follows the seconds: what they show as this very one belongs to it.
+    if (end) *end += 1;
+    if (begin && end && *end <= *begin) *end += kDay_s;
+    const double near = begin && end ? (*begin + *end) / 2 : begin ? *begin : *end;
+    if (begin) frames.first = frame_of_day(*begin, near).value_or(frames.first);
+    if (end)
+        if (const auto behind = frame_of_day(*end, near)) frames.last = *behind - 1;
     return frames;
 }
 

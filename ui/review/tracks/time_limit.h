@@ -10,9 +10,12 @@ class QJsonObject;
 
 namespace eyrie::ui {
 
-/// The first frame that was taken at a time of the day in UTC (s) or later; behind the last one where the video ends
-/// before it. Nothing where nobody knows the time.
-using FrameOfDay = std::function<std::optional<FrameIndex>(double seconds)>;
+/// The first frame that was taken at a time of the day in UTC (s since midnight) or later; behind the last one where
+/// the video ends before it. The day is that on which `near`, told likewise, is nearest to the video; both may be of
+/// the day after. Nothing where nobody knows the time.
+using FrameOfDay = std::function<std::optional<FrameIndex>(double seconds, double near)>;
+/// The same, asking once for each time.
+FrameOfDay remembering(FrameOfDay ask);
 
 /// A moment of a video as a person names it.
 struct TimeLimit {
@@ -37,6 +40,8 @@ struct TimeRange {
 };
 
 /// The frames that a range leaves. Times of the day limit nothing while nobody knows them (`frame_of_day` may be none).
+/// Two of them are of the day on which what lies between them is nearest to the video, over midnight where the second
+/// is the earlier one.
 FrameSpan framesOf(const TimeRange& range, const FrameOfDay& frame_of_day);
 /// Whether some frame lies in both.
 inline bool overlap(const FrameSpan& a, const FrameSpan& b) {

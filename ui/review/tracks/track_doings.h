@@ -23,7 +23,7 @@ int eighthOf(double heading);
 struct TrackDoings {
     std::optional<int> eighth;  ///< nothing: it went nowhere
     std::set<EventKind> events;
-    std::set<std::string> zones;       ///< that it entered, left or crossed
+    std::set<std::string> zones;       ///< that it entered, left, crossed or drove against
     std::vector<FrameSpan> standing;   ///< when it stood, merged
     std::optional<SpeedRange> speeds;  ///< nothing: it was followed too shortly to tell
 };

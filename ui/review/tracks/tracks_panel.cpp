@@ -70,7 +70,7 @@ TracksPanel::TracksPanel(TracksModel* model, QWidget* parent)
             &QAbstractItemModel::rowsRemoved, &QAbstractItemModel::dataChanged);
     whenAny(model, this, &TracksPanel::showCount, &QAbstractItemModel::dataChanged, &QAbstractItemModel::rowsRemoved);
     whenAny(&proxy(), this, &TracksPanel::showCount, &QAbstractItemModel::modelReset, &QAbstractItemModel::rowsInserted,
-            &QAbstractItemModel::rowsRemoved);
+            &QAbstractItemModel::rowsRemoved, &TableSortProxy::filtered);
     onEdited(this, &TracksPanel::filterTracks, tentative_);
     hideAtFirst({TracksModel::lowest_column, TracksModel::highest_column}, TracksModel::speed_column);
     // Left over from a day that ended with such a list.
@@ -119,10 +119,7 @@ bool TracksPanel::isListed(const TrackSummary& track) const {
 }
 
 TrackFacts TracksPanel::facts() const {
-    return {.doings = doings_.get(),
-            .likeness = likeness_.get(),
-            .frame_of_day = tracks_->clock().frame_of_day,
-            .now = shown_frame_};
+    return {.doings = doings_.get(), .likeness = likeness_.get(), .frame_of_day = frame_of_day_, .now = shown_frame_};
 }
 
 void TracksPanel::setShownFrame(FrameIndex frame) {
@@ -132,11 +129,11 @@ void TracksPanel::setShownFrame(FrameIndex frame) {
 }
 
 void TracksPanel::filterTracks() {
+    frame_of_day_ = remembering(tracks_->clock().frame_of_day);
     proxy().setRowFilter([this](int row) {
         const TrackSummary* track = tracks_->recordAt(row);
         return track != nullptr && isListed(*track);
     });
-    showCount();
 }
 
 QString TracksPanel::countText() const {
@@ -157,6 +154,7 @@ QString TracksPanel::countText() const {
 }
 
 void TracksPanel::showCount() {
+    if (proxy().filtering()) return;  // it is counted at the end
     count_->setText(countText());
 }
 
@@ -164,10 +162,8 @@ void TracksPanel::setDoings(const std::shared_ptr<const DoingsByTrack>& doings) 
     if (doings_ == doings) return;
     doings_ = doings;
     chips_->setDoings(doings);
-    tracks_->setDoings(doings);
-    if (!chips_->filter().any()) return;
-    filterTracks();
-    tellQuery();
+    if (chips_->filter().any()) filterTracks();
+    tracks_->setDoings(doings);  // tells that the query is another, too
 }
 
 std::shared_ptr<const TrackQuery> TracksPanel::query() const {
@@ -209,9 +205,8 @@ void TracksPanel::useFilter() {
 void TracksPanel::setLikeness(const std::shared_ptr<const LikenessByTrack>& likeness) {
     if (likeness_ == likeness || (likeness && likeness->chosen != like_)) return;
     likeness_ = likeness;
-    tracks_->setLikeness(likeness);
     filterTracks();
-    tellQuery();
+    tracks_->setLikeness(likeness);  // tells that the query is another, too
 }
 
 void TracksPanel::orderByLikeness(bool wanted) {

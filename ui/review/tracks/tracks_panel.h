@@ -100,6 +100,7 @@ class TracksPanel : public TablePanel {
     std::shared_ptr<const DoingsByTrack> doings_;
     std::shared_ptr<const LikenessByTrack> likeness_;
     std::optional<FrameIndex> shown_frame_;
+    FrameOfDay frame_of_day_;      ///< of the clock as it was when the list was filtered last
     bool told_query_ = false;      ///< there was one
     std::optional<TrackId> like_;  ///< that was asked about
     LikenessChoice like_counts_;

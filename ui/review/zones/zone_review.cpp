@@ -225,8 +225,7 @@ QString ZoneReview::hintText() const {
         return tr("Zones, lines and arrows are drawn over a finished run, which knows how the ground moves.");
     return tr(
         "Draw an area or a line, and the list shows which vehicles enter, leave or cross it; an arrow along a lane "
-        "says "
-        "which way is right there. All are kept in the project, and the command line watches them, too.");
+        "says which way is right there. All are kept in the project, and the command line watches them, too.");
 }
 
 void ZoneReview::enableActions() {

@@ -71,6 +71,9 @@ TablePanel::TablePanel(QAbstractItemModel* model, const QString& settings_key, Q
     buildTable(sort_column);
     whenAny(proxy_, this, &TablePanel::keepSelection, &QAbstractItemModel::rowsInserted,
             &QAbstractItemModel::rowsRemoved, &QAbstractItemModel::modelReset);
+    connect(proxy_, &TableSortProxy::filtered, this, [this] {
+        if (selection_due_) keepSelection();
+    });
     // The proxy lets go of rows before the model does.
     connect(model_, &QAbstractItemModel::rowsRemoved, this, &TablePanel::showTableOrEmptyState);
     connect(proxy_, &QAbstractItemModel::layoutChanged, this, &TablePanel::showTableOrEmptyState);
@@ -219,6 +222,9 @@ void TablePanel::widenColumnsSoon() {
 }
 
 void TablePanel::keepSelection() {
+    // Looking for the row after every step would take seconds in a list of thousands.
+    selection_due_ = proxy_->filtering();
+    if (selection_due_) return;
     if (!columns_fit_ && proxy_->rowCount() > 0) {
         fitColumns();
         columns_fit_ = true;

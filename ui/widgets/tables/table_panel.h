@@ -93,11 +93,12 @@ class TablePanel : public QWidget {
     QStackedLayout* stack_;
     QList<int> fitted_widths_;  ///< of a column with another width somebody chose it
     DelayedCall widening_due_;
-    int known_columns_ = 0;     ///< that the memory tells of
-    bool columns_fit_ = false;  ///< widths were remembered, or fitted to the first rows
-    int kept_id_ = 0;           ///< selected by user or program; selected again when its row comes back
-    bool telling_ = true;       ///< false while the program selects
-    int told_id_ = 0;           ///< the row that rowSelected() is being told of
+    int known_columns_ = 0;       ///< that the memory tells of
+    bool columns_fit_ = false;    ///< widths were remembered, or fitted to the first rows
+    int kept_id_ = 0;             ///< selected by user or program; selected again when its row comes back
+    bool selection_due_ = false;  ///< rows came or went while another filter was applied
+    bool telling_ = true;         ///< false while the program selects
+    int told_id_ = 0;             ///< the row that rowSelected() is being told of
 };
 
 }  // namespace eyrie::ui

@@ -1,6 +1,7 @@
 #include "widgets/tables/table_sort_proxy.h"
 
 #include <QLocale>
+#include <QScopedValueRollback>
 #include <QVariant>
 #include <algorithm>
 #include <optional>
@@ -59,12 +60,20 @@ TableSortProxy::TableSortProxy(QObject* parent) : QSortFilterProxyModel(parent) 
 
 void TableSortProxy::setFilterText(const QString& text) {
     words_ = text.simplified().split(QLatin1Char(' '), Qt::SkipEmptyParts);
-    invalidateFilter();
+    applyFilter();
 }
 
 void TableSortProxy::setRowFilter(RowFilter filter) {
     row_filter_ = std::move(filter);
-    invalidateFilter();
+    applyFilter();
+}
+
+void TableSortProxy::applyFilter() {
+    {
+        const QScopedValueRollback<bool> at_work(filtering_, true);
+        invalidateFilter();
+    }
+    emit filtered();
 }
 
 bool TableSortProxy::filterAcceptsRow(int source_row, const QModelIndex& source_parent) const {

@@ -18,13 +18,23 @@ class TableSortProxy : public QSortFilterProxyModel {
     void setFilterText(const QString& text);
     /// A further condition; empty: none.
     void setRowFilter(RowFilter filter);
+    /// Whether rows come and go because another filter is being applied: in as many steps as there are gaps between
+    /// them. What looks through the rows waits for filtered().
+    bool filtering() const { return filtering_; }
+
+ signals:
+    /// Another filter holds, and all rows are as it leaves them.
+    void filtered();
 
  protected:
     bool filterAcceptsRow(int source_row, const QModelIndex& source_parent) const override;
 
  private:
+    void applyFilter();
+
     QStringList words_;
     RowFilter row_filter_;
+    bool filtering_ = false;
 };
 
 }  // namespace eyrie::ui

@@ -138,7 +138,7 @@ void RunBar::makeDetails() {
            "frame, about 5 GB for an hour at 25 frames per second.\n\n"
            "Why?, Stages, Stacks, the motion vectors and detections over the video, causes of errors and sweeps need "
            "it. Tracks, events, measures, exports and reports do not, and what is found is the same.\n\n"
-           "automatic: of all frames of a run over no more than %1, of none of a longer one.")
+           "automatic: of all frames of a run of up to %1 frames, of none of a longer one.")
             .arg(locale().toString(kept.details_up_to)));
     bindCommands(this, {{details_, [this] {
                              session_.settings().recording.details =
@@ -222,8 +222,8 @@ bool RunBar::takeEdits() {
 
 void RunBar::enable() {
     const bool idle = session_.video().has_value() && !session_.running();
-    for (QWidget* field : std::initializer_list<QWidget*>{gsd_, first_frame_, last_frame_, details_})
-        field->setEnabled(idle);
+    for (QWidget* field : std::initializer_list<QWidget*>{gsd_, first_frame_, last_frame_}) field->setEnabled(idle);
+    details_->setEnabled(!session_.running());  // a live source needs no video to begin with
     frame_rate_->setEnabled(idle && !session_.videoMissing());
     stop_button_->setVisible(session_.running());
 }

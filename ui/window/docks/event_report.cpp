@@ -6,6 +6,7 @@
 #include "core/utc_time.h"
 #include "io/file_digest.h"
 #include "report/review/review_report.h"
+#include "review/events/event_review.h"
 #include "review/events/event_thresholds.h"
 #include "review/events/events_dock.h"
 #include "review/events/events_panel.h"
@@ -55,6 +56,11 @@ void EventReport::ask(ReportedEvents which) {
     if (!parts_.session.runData()) {
         parts_.messages.showTopic(kReportTopic, MessageKind::info,
                                   tr("Run the video first; a report shows what a run found."));
+        return;
+    }
+    if (parts_.events.review().asOf()) {  // numbers of events are not what they will be
+        parts_.messages.showTopic(kReportTopic, MessageKind::info,
+                                  tr("The run is still running; its report can be written when it has ended."));
         return;
     }
     const RunRecord& run = parts_.session.runData()->record;
