@@ -33,6 +33,7 @@
 #include "review/inspector/track_inspector.h"
 #include "review/mosaic/mosaic_panel.h"
 #include "review/mosaic/mosaic_view.h"
+#include "review/pictures/picture_column.h"
 #include "review/tracks/filter_chips.h"
 #include "review/tracks/like_tracks.h"
 #include "review/tracks/tracks_panel.h"
@@ -110,6 +111,11 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
         events_->panel().setQuery(tracks.query(), [&tracks] { tracks.chips().clear(); });
     });
     events_->correcting().setList(review_->tracks());
+    auto* pictures = new PictureColumn(review_->tracks(), TracksModel::picture_column, session_, [this](int track) {
+        const auto& run = events_->review().tracks();
+        return run ? placeOfTrack(*run, track) : std::nullopt;
+    });
+    whenAny(events_, pictures, &PictureColumn::refresh, &EventsDock::tracksRead);
     docks_->watch(DockId::tracks, &events_->correcting(), [this](bool) { events_->correcting().enableActions(); });
     connect(events_, &EventsDock::eventsShown, this, [this] {
         const auto& found = events_->review().found();

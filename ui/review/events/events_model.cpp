@@ -156,6 +156,8 @@ QVariant EventsModel::sortValueOf(const EventEntry& entry, int column) const {
         case lowest_column:
         case highest_column:
             return extremeOf(entry, column).value_or(-1);
+        case picture_column:
+            return static_cast<int>(entry.position);
         default:
             return textOf(entry, column);
     }
@@ -189,6 +191,8 @@ QString EventsModel::helpOf(int column) const {
             return tr("Highest speed of its tracks over the ground while it lasts, in %1; empty for tracks followed "
                       "too shortly to tell")
                 .arg(speedUnit(scale()));
+        case picture_column:
+            return tr("The vehicle at the frame to look at, heading to the right");
         default:
             return {};
     }
@@ -219,6 +223,8 @@ QVariant EventsModel::headerData(int section, Qt::Orientation orientation, int r
             return tr("Lowest (%1)").arg(speedUnit(scale()));
         case highest_column:
             return tr("Highest (%1)").arg(speedUnit(scale()));
+        case picture_column:
+            return tr("Picture");
         default:
             return {};
     }

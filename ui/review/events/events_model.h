@@ -41,6 +41,7 @@ class EventsModel : public RecordModel<EventEntry> {
         duration_column,
         lowest_column,
         highest_column,
+        picture_column,  ///< PictureColumn paints it
         column_count
     };
 

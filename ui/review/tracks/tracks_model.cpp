@@ -148,6 +148,8 @@ QVariant TracksModel::sortValueOf(const TrackSummary& track, int column) const {
             return extremeOf(track, column).value_or(-1);
         case stood_column:
             return stoodSecondsOf(track).value_or(-1);
+        case picture_column:
+            return track.id;
         default:
             return textOf(track, column);
     }
@@ -194,6 +196,10 @@ QString TracksModel::helpOf(int column) const {
             return tr(
                 "For how long it stood, in seconds, as the events stops, starts and stands tell; empty until "
                 "events are found, and for tracks followed too shortly to tell");
+        case picture_column:
+            return tr(
+                "The vehicle in the middle of its life, heading to the right; none of tracks that are not part "
+                "of the result");
         default:
             return {};
     }
@@ -233,6 +239,8 @@ QVariant TracksModel::headerData(int section, Qt::Orientation orientation, int r
             return tr("Highest (%1)").arg(speedUnit(scale_));
         case stood_column:
             return tr("Stood (s)");
+        case picture_column:
+            return tr("Picture");
         default:
             return {};
     }

@@ -36,6 +36,7 @@ class TracksModel : public RecordModel<TrackSummary> {
         lowest_column,  ///< empty until setDoings(), as the next
         highest_column,
         stood_column,
+        picture_column,  ///< PictureColumn paints it
         column_count
     };
 
