@@ -79,7 +79,8 @@ constexpr QSize kFirstSize(1500, 940);
 constexpr QSize kFrame(12, 36);  ///< what a window manager may put around it
 /// The style keeps a picture of every button that ever was, and messages bring new ones all the time.
 constexpr int kStyleCache_kB = 2048;
-constexpr int kLeastLabelRows_px = 68;
+constexpr int kLowWindow_px = 800;      ///< below, rows under the video make room for it
+constexpr int kLeastLabelRows_px = 51;  ///< three objects
 constexpr int kMostLabelRows_px = 118;
 const QString kWorkspaces = QStringLiteral("window/workspaces");
 const QString kEventRows = QStringLiteral("window/event_rows");
@@ -273,6 +274,7 @@ void MainWindow::buildWorkspaces() {
         earth_->control().setActive(!labels);
         steady_->setActive(!labels);
         if (labels) labelling_->setActive(true);
+        fitRows();
         // Zones are drawn, tracks narrowed by what they did and the ground held still, whichever list is in front.
         if (!labels) events_->review().setWanted();
         evaluation_->enterWorkspace(kind);
@@ -443,8 +445,14 @@ void MainWindow::focusCanvas() {
 
 void MainWindow::resizeEvent(QResizeEvent* event) {
     QMainWindow::resizeEvent(event);
+    fitRows();
+}
+
+void MainWindow::fitRows() {
     // Of a low window the picture takes more.
-    label_rows_->setFixedHeight(std::clamp(height() / 9, kLeastLabelRows_px, kMostLabelRows_px));
+    label_rows_->setFixedHeight(
+        std::clamp(kMostLabelRows_px - (kFirstSize.height() - height()) / 3, kLeastLabelRows_px, kMostLabelRows_px));
+    timeline_->setBrief(labelling_ != nullptr && labelling_->active() && height() < kLowWindow_px);
 }
 
 void MainWindow::showEvent(QShowEvent* event) {
