@@ -54,18 +54,39 @@ double fastestBefore(const EventScene& scene, const GroundPath& path, std::size_
 
 namespace {
 
-std::map<TrackId, SpeedRange> speedsOf(const std::vector<GroundPath>& paths) {
-    std::map<TrackId, SpeedRange> speeds;
-    for (const GroundPath& path : paths) {
-        if (!path.measured) continue;
-        for (const GroundSample& sample : path.samples) {
-            const double speed = sample.moving ? sample.speed : 0;
-            const auto [place, is_new] = speeds.try_emplace(path.id(), SpeedRange{speed, speed});
-            if (is_new) continue;
-            place->second.lowest = std::min(place->second.lowest, speed);
-            place->second.highest = std::max(place->second.highest, speed);
-        }
+/// Widens a range by what a path tells from one frame to another.
+void addSpeeds(const GroundPath& path, FrameIndex first, FrameIndex last, std::optional<SpeedRange>& range) {
+    if (!path.measured) return;
+    for (std::size_t i = sampleAt(path, first); i < path.samples.size() && path.samples[i].frame <= last; ++i) {
+        const double speed = path.samples[i].moving ? path.samples[i].speed : 0;
+        if (!range) range = SpeedRange{speed, speed};
+        range->lowest = std::min(range->lowest, speed);
+        range->highest = std::max(range->highest, speed);
     }
+}
+
+std::map<TrackId, SpeedRange> speedsOf(const std::vector<GroundPath>& paths) {
+    std::map<TrackId, std::optional<SpeedRange>> ranges;
+    for (const GroundPath& path : paths)
+        if (!path.samples.empty())
+            addSpeeds(path, path.samples.front().frame, path.samples.back().frame, ranges[path.id()]);
+    std::map<TrackId, SpeedRange> speeds;
+    for (const auto& [track, range] : ranges)
+        if (range) speeds[track] = *range;
+    return speeds;
+}
+
+std::vector<std::optional<SpeedRange>> speedsIn(const std::vector<Event>& events,
+                                                const std::vector<GroundPath>& paths) {
+    std::multimap<TrackId, const GroundPath*> paths_of;
+    for (const GroundPath& path : paths) paths_of.emplace(path.id(), &path);
+    std::vector<std::optional<SpeedRange>> speeds(events.size());
+    for (std::size_t i = 0; i < events.size(); ++i)
+        for (const TrackId track : events[i].tracks) {
+            const auto [from, to] = paths_of.equal_range(track);
+            for (auto path = from; path != to; ++path)
+                addSpeeds(*path->second, events[i].first_frame, events[i].last_frame, speeds[i]);
+        }
     return speeds;
 }
 
@@ -94,7 +115,8 @@ TrackFindings searchTracks(const std::vector<EventTrack>& tracks, const Footage&
     std::stable_sort(events.begin(), events.end(), [](const Event& a, const Event& b) {
         return std::tie(a.first_frame, a.kind, a.tracks, a.zone) < std::tie(b.first_frame, b.kind, b.tracks, b.zone);
     });
-    return {std::move(events), speedsOf(paths)};
+    std::vector<std::optional<SpeedRange>> event_speeds = speedsIn(events, paths);
+    return {std::move(events), speedsOf(paths), std::move(event_speeds)};
 }
 
 }  // namespace eyrie

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "core/review/zone.h"
@@ -21,6 +22,9 @@ struct SpeedRange {
 struct TrackFindings {
     std::vector<Event> events;
     std::map<TrackId, SpeedRange> speeds;  ///< of tracks that were followed long enough to tell
+    /// By event: how fast its tracks were from its first frame to its last, all of them together; nothing where none
+    /// was followed long enough to tell.
+    std::vector<std::optional<SpeedRange>> event_speeds;
 };
 
 /// All events of the tracks, by first frame, then kind. Directions, speeds and places are those on the ground; without

@@ -104,6 +104,28 @@ TEST(TrackSpeeds, TheLowestAndTheHighestAreThoseOfTheDrive) {
     EXPECT_NEAR(found.speeds.at(2).highest * 3.6, 60, 3);
 }
 
+TEST(TrackSpeeds, ThoseOfAnEventAreTakenWhileItLasts) {
+    DrivenTracks scene;
+    scene.drive({20, 60}, 0, kStopAndGo);
+    const TrackFindings found = searchTracks(scene.tracks, scene.footage());
+    ASSERT_EQ(found.event_speeds.size(), found.events.size());
+    int stands = 0;
+    for (std::size_t i = 0; i < found.events.size(); ++i) {
+        const Event& event = found.events[i];
+        ASSERT_TRUE(found.event_speeds[i]) << nameOf(event.kind);
+        EXPECT_LE(found.event_speeds[i]->lowest, found.event_speeds[i]->highest);
+        if (event.kind != EventKind::stands) continue;
+        ++stands;
+        EXPECT_EQ(found.event_speeds[i]->lowest, 0);
+        EXPECT_LT(found.event_speeds[i]->highest * 3.6, 10) << "that it drove before and after does not count";
+    }
+    EXPECT_EQ(stands, 1);
+
+    DrivenTracks brief;
+    brief.drive({10, 20}, 0, {{0.2, 30, 30}});
+    for (const auto& speeds : searchTracks(brief.tracks, brief.footage()).event_speeds) EXPECT_FALSE(speeds);
+}
+
 TEST(Standstills, AStopAStandAndAStartAreFoundWhereTheyAre) {
     DrivenTracks scene;
     scene.drive({20, 60}, 0, kStopAndGo);

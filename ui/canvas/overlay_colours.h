@@ -5,7 +5,7 @@
 namespace eyrie::ui {
 
 enum class PaletteKind {
-    thesis,       ///< the thesis' colours
+    thesis,       ///< the thesis' colours, but for corners
     colour_blind  ///< told apart with any colour vision (after Okabe and Ito's set)
 };
 
@@ -45,7 +45,10 @@ inline OverlayColours overlayColours(PaletteKind kind) {
                 .zone = QColor(120, 180, 255),
                 .north = QColor(250, 250, 245),
                 .edge = edge};
-    return {.stationary_corner = QColor(255, 50, 50),
+    // The text has corners in red (Teutsch fig. 4.3) and detections, too (figs. 6.3, 7.15, 7.20). Here both may be
+    // drawn over one picture: red are detections, which more figures show, and corners have a hue that nothing else
+    // has.
+    return {.stationary_corner = QColor(165, 115, 255),
             .motion_vector = QColor(255, 230, 0),
             .cluster = QColor(0, 229, 255),
             .roi = QColor(0, 229, 255, 140),

@@ -33,6 +33,7 @@
 #include "review/inspector/track_inspector.h"
 #include "review/mosaic/mosaic_panel.h"
 #include "review/mosaic/mosaic_view.h"
+#include "review/pictures/picture_column.h"
 #include "review/tracks/filter_chips.h"
 #include "review/tracks/like_tracks.h"
 #include "review/tracks/tracks_panel.h"
@@ -78,7 +79,8 @@ constexpr QSize kFirstSize(1500, 940);
 constexpr QSize kFrame(12, 36);  ///< what a window manager may put around it
 /// The style keeps a picture of every button that ever was, and messages bring new ones all the time.
 constexpr int kStyleCache_kB = 2048;
-constexpr int kLeastLabelRows_px = 68;
+constexpr int kLowWindow_px = 800;      ///< below, rows under the video make room for it
+constexpr int kLeastLabelRows_px = 51;  ///< three objects
 constexpr int kMostLabelRows_px = 118;
 const QString kWorkspaces = QStringLiteral("window/workspaces");
 const QString kEventRows = QStringLiteral("window/event_rows");
@@ -110,6 +112,11 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
         events_->panel().setQuery(tracks.query(), [&tracks] { tracks.chips().clear(); });
     });
     events_->correcting().setList(review_->tracks());
+    auto* pictures = new PictureColumn(review_->tracks(), TracksModel::picture_column, session_, [this](int track) {
+        const auto& run = events_->review().tracks();
+        return run ? placeOfTrack(*run, track) : std::nullopt;
+    });
+    whenAny(events_, pictures, &PictureColumn::refresh, &EventsDock::tracksRead);
     docks_->watch(DockId::tracks, &events_->correcting(), [this](bool) { events_->correcting().enableActions(); });
     connect(events_, &EventsDock::eventsShown, this, [this] {
         const auto& found = events_->review().found();
@@ -267,6 +274,7 @@ void MainWindow::buildWorkspaces() {
         earth_->control().setActive(!labels);
         steady_->setActive(!labels);
         if (labels) labelling_->setActive(true);
+        fitRows();
         // Zones are drawn, tracks narrowed by what they did and the ground held still, whichever list is in front.
         if (!labels) events_->review().setWanted();
         evaluation_->enterWorkspace(kind);
@@ -437,8 +445,14 @@ void MainWindow::focusCanvas() {
 
 void MainWindow::resizeEvent(QResizeEvent* event) {
     QMainWindow::resizeEvent(event);
+    fitRows();
+}
+
+void MainWindow::fitRows() {
     // Of a low window the picture takes more.
-    label_rows_->setFixedHeight(std::clamp(height() / 9, kLeastLabelRows_px, kMostLabelRows_px));
+    label_rows_->setFixedHeight(
+        std::clamp(kMostLabelRows_px - (kFirstSize.height() - height()) / 3, kLeastLabelRows_px, kMostLabelRows_px));
+    timeline_->setBrief(labelling_ != nullptr && labelling_->active() && height() < kLowWindow_px);
 }
 
 void MainWindow::showEvent(QShowEvent* event) {

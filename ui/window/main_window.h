@@ -106,6 +106,8 @@ class MainWindow : public QMainWindow {
     void enableActions();
     void updateTitle();
     void focusCanvas();
+    /// How high the rows below the video are, by how high the window is.
+    void fitRows();
 
     WindowSettings settings_;
     OverlaySettings overlays_;
@@ -144,7 +146,7 @@ class MainWindow : public QMainWindow {
     EvaluationSession* measured_;
     EvaluationDocks* evaluation_;
     Tuning* tuning_;
-    LabelWorkspace* labelling_;
+    LabelWorkspace* labelling_ = nullptr;
     OpenedFiles* files_;
     WindowCommands* commands_;
     Workspaces* workspaces_;

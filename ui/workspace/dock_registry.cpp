@@ -16,8 +16,8 @@ namespace {
 // Widths in px.
 constexpr int kNarrow = 1500;  ///< below, the video comes first
 constexpr int kOnlyColumn = 340;
-constexpr int kOnlyTuneColumn = 430;  ///< all its tabs are seen
-constexpr int kNarrowColumn = 260;
+constexpr int kOnlyTuneColumn = 430;   ///< all its tabs are seen
+constexpr int kOnlyLabelColumn = 260;  ///< its bar and rows take from the video already
 constexpr int kLeftColumn = 380;
 constexpr int kRightColumn = 440;
 
@@ -89,6 +89,18 @@ Columns columnsOf(WorkspaceKind workspace) {
              DockId::statistics}};
 }
 
+int onlyColumnOf(WorkspaceKind workspace) {
+    switch (workspace) {
+        case WorkspaceKind::label:
+            return kOnlyLabelColumn;
+        case WorkspaceKind::tune:
+            return kOnlyTuneColumn;
+        case WorkspaceKind::review:
+            break;
+    }
+    return kOnlyColumn;
+}
+
 }  // namespace
 
 DockRegistry::DockRegistry(QMainWindow& window) : QObject(&window), window_(window) {
@@ -148,8 +160,6 @@ void DockRegistry::arrange(WorkspaceKind workspace) {
     for (QDockWidget* each : docks_)
         if (each != nullptr) each->hide();
     const bool narrow = window_.width() < kNarrow;
-    // Labelling has rows below the video, so that its height decides how large it is shown, and room is left beside it.
-    const bool one_column = narrow && workspace != WorkspaceKind::label;
     const Columns columns = columnsOf(workspace);
     const auto present = [this](const QList<DockId>& ids) {
         QList<QDockWidget*> found;
@@ -165,7 +175,7 @@ void DockRegistry::arrange(WorkspaceKind workspace) {
     for (QDockWidget* each : left_docks + right_docks) each->setFloating(false);
     window_.addDockWidget(Qt::LeftDockWidgetArea, left);
     // Before anything is tabbed: among tabs there is no splitting.
-    if (one_column)
+    if (narrow)
         window_.splitDockWidget(left, right, Qt::Vertical);
     else
         window_.addDockWidget(Qt::RightDockWidgetArea, right);
@@ -174,13 +184,11 @@ void DockRegistry::arrange(WorkspaceKind workspace) {
         for (QDockWidget* each : column) each->show();
         column.front()->raise();
     }
-    if (one_column) {
-        window_.resizeDocks({left}, {workspace == WorkspaceKind::tune ? kOnlyTuneColumn : kOnlyColumn}, Qt::Horizontal);
+    if (narrow) {
+        window_.resizeDocks({left}, {onlyColumnOf(workspace)}, Qt::Horizontal);
         window_.resizeDocks({left, right}, {100, 100}, Qt::Vertical);
     } else {
-        window_.resizeDocks({left, right},
-                            {narrow ? kNarrowColumn : kLeftColumn, narrow ? kNarrowColumn : kRightColumn},
-                            Qt::Horizontal);
+        window_.resizeDocks({left, right}, {kLeftColumn, kRightColumn}, Qt::Horizontal);
     }
 }
 

@@ -177,6 +177,29 @@ class OverlaysTest : public QObject {
         }
     }
 
+    void whatIsDrawnOverOnePictureIsToldApartByItsHue() {
+        constexpr int kLeastHues_deg = 15;
+        const OverlayColours colours = overlayColours(PaletteKind::thesis);
+        const std::pair<const char*, QColor> kinds[] = {
+            {"corners", colours.stationary_corner}, {"vectors", colours.motion_vector},
+            {"clusters", colours.cluster},          {"stacks", colours.stack},
+            {"detections", colours.detection},      {"tracks", colours.track},
+            {"no vehicles", colours.non_vehicle},   {"zones", colours.zone}};
+        for (const auto& one : kinds)
+            for (const auto& other : kinds) {
+                if (&one == &other) continue;
+                const int apart = std::abs(one.second.hue() - other.second.hue());
+                QVERIFY2(
+                    std::min(apart, 360 - apart) >= kLeastHues_deg,
+                    qPrintable(QStringLiteral("%1 and %2").arg(QLatin1String(one.first), QLatin1String(other.first))));
+            }
+        // Detections are red, clusters cyan, vectors yellow, tracks green in the figures of the thesis.
+        QCOMPARE(colours.detection.hue() / 10, 0);
+        QCOMPARE(colours.cluster.hue() / 10, 18);
+        QCOMPARE(colours.motion_vector.hue() / 10, 5);
+        QCOMPARE(colours.track.hue() / 10, 12);
+    }
+
     void aVectorIsAsLongAsItsMotionTimesTheFactor() {
         auto result = empty();
         result->motion.motion_vectors.push_back({1, {100, 150}, {3, 0}, 9});

@@ -195,6 +195,26 @@ class TimelineViewTest : public QObject {
         QCOMPARE(view.sizeHint().height(), height);
     }
 
+    void whereRoomIsScarceItHasTimesAndRegistrationAlone() {
+        TimelineView view;
+        view.setTimes(times(100));
+        view.setWatched(std::vector<FrameSpan>{{20, 39}});
+        view.setTrackLife(std::pair(10, 50), QStringLiteral("Track 7"));
+        const int whole = view.sizeHint().height();
+        view.setBrief(true);
+        QVERIFY(view.sizeHint().height() < whole / 2);
+        QCOMPARE(view.minimumSizeHint().height(), view.sizeHint().height());
+        view.resize(600, view.sizeHint().height());
+        const QImage before = view.grab().toImage();
+        view.setTrackLife(std::pair(60, 90), QStringLiteral("Track 8"));
+        view.setWatched(std::vector<FrameSpan>{{70, 80}});
+        QCOMPARE(view.grab().toImage(), before);
+        view.setCurrentFrame(50);
+        QVERIFY(view.grab().toImage() != before);
+        view.setBrief(false);
+        QCOMPARE(view.sizeHint().height(), whole);
+    }
+
     void withoutAVideoItIsEmptyAndHarmless() {
         TimelineView view;
         view.resize(600, 104);

@@ -1,5 +1,6 @@
 #include <QAbstractItemModelTester>
 #include <QComboBox>
+#include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
 #include <QSignalSpy>
@@ -13,8 +14,10 @@
 #include "review/tracks/track_query.h"
 #include "ui/support/ui_support.h"
 #include "ui/support/ui_test.h"
+#include "widgets/display_text.h"
 #include "widgets/layout/collapsible_section.h"
 #include "widgets/parameters/parameter_row.h"
+#include "widgets/tables/table_roles.h"
 #include "workspace/window_actions.h"
 
 namespace eyrie::ui::events_list_test {
@@ -35,7 +38,7 @@ std::shared_ptr<const FoundEvents> found(std::vector<Event> events, int frames =
     run->footage.image_size = {240, 180};
     run->footage.last_frame = frames - 1;
     run->footage.scale.frame_rate_hz = 25;
-    return inOrder(run, std::move(events), {});
+    return inOrder(run, {std::move(events), {}, {}}, {});
 }
 
 /// Six stops, a U-turn and a vehicle that was lost.
@@ -151,6 +154,63 @@ class EventsListTest : public QObject {
         model.setClock({});
         QCOMPARE(time.data().toString(), in_video);
         QCOMPARE(title(), QStringLiteral("Time"));
+    }
+
+    void durationAndSpeedsAreThoseOfTheTimeThatAnEventLasts() {
+        EventsModel model;
+        const EventsPanel panel(&model, *actions_);
+        auto run = std::make_shared<StoredTracks>();
+        run->footage.camera = CameraMotion::standing(0, 4999);
+        run->footage.image_size = {240, 180};
+        run->footage.last_frame = 4999;
+        run->footage.scale = {0.1, 25, true};
+        const auto show = [&] {
+            // A long stand, a moment of which nobody knows how fast it was, and a drive of two minutes.
+            TrackFindings findings;
+            findings.events = {happening(EventKind::stands, 1, 100), happening(EventKind::stops, 2, 300),
+                               happening(EventKind::loiters, 3, 400)};
+            findings.events[0].last_frame = 199;
+            findings.events[2].last_frame = 400 + 125 * 25 - 1;
+            findings.event_speeds = {SpeedRange{0, 1}, std::nullopt, SpeedRange{5, 10}};
+            give(model, inOrder(run, std::move(findings), {}));
+        };
+        const auto cell = [&](TrackId track, int column, int role = Qt::DisplayRole) {
+            for (int row = 0; row < model.rowCount(); ++row)
+                if (model.index(row, EventsModel::tracks_column).data().toString() == QString::number(track))
+                    return model.index(row, column).data(role);
+            return QVariant();
+        };
+        const auto text = [&](TrackId track, int column) { return cell(track, column).toString(); };
+        show();
+        QCOMPARE(text(1, EventsModel::duration_column), QStringLiteral("4.0 s"));
+        QCOMPARE(text(2, EventsModel::duration_column), QString());
+        QCOMPARE(text(3, EventsModel::duration_column), durationText(125));
+        QVERIFY2(text(3, EventsModel::duration_column).startsWith(QStringLiteral("2:05")), "minutes and seconds");
+        QVERIFY(cell(1, EventsModel::duration_column, sort_role).toDouble() <
+                cell(3, EventsModel::duration_column, sort_role).toDouble());
+        QCOMPARE(text(1, EventsModel::lowest_column), QStringLiteral("0.0"));
+        QCOMPARE(text(3, EventsModel::lowest_column), QStringLiteral("18.0"));  // km/h
+        QCOMPARE(text(3, EventsModel::highest_column), QStringLiteral("36.0"));
+        QCOMPARE(text(2, EventsModel::highest_column), QString());
+        const auto title = [&](int column) {
+            return model.headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
+        };
+        QCOMPARE(title(EventsModel::highest_column), QStringLiteral("Highest (km/h)"));
+        const QHeaderView* header = panel.table()->horizontalHeader();
+        QVERIFY(!header->isSectionHidden(EventsModel::duration_column));
+        QVERIFY(header->isSectionHidden(EventsModel::lowest_column));
+        QVERIFY(header->isSectionHidden(EventsModel::highest_column));
+        QCOMPARE(header->visualIndex(EventsModel::duration_column),
+                 header->visualIndex(EventsModel::figure_column) + 1);
+
+        // Without a scale that is known: 10 m/s are 4 px a frame at 0.1 m/px.
+        run = std::make_shared<StoredTracks>(*run);
+        run->footage.scale.gsd_known = false;
+        QSignalSpy titles(&model, &EventsModel::headerDataChanged);
+        show();
+        QCOMPARE(text(3, EventsModel::highest_column), QStringLiteral("4.00"));
+        QCOMPARE(title(EventsModel::highest_column), QStringLiteral("Highest (px/frame)"));
+        QCOMPARE(titles.count(), 1);
     }
 
     void whoJudgedAndWhenIsInTheTip() {

@@ -296,6 +296,25 @@ class TrackFilterTest : public QObject {
                  QStringLiteral("Highest (px/frame)"));
     }
 
+    void howLongATrackStoodIsShownWhereItIsKnown() {
+        // Track 1 stood twice, 2 never, of 3 nobody knows.
+        const auto doings = std::make_shared<DoingsByTrack>();
+        (*doings)[1].standing = {{100, 149}, {200, 224}};
+        (*doings)[2].speeds = {10, 20};
+        TracksModel model;
+        TracksPanel panel(&model);
+        model.setTracks(tenTracks(), kMetres);
+        const auto cell = [&](int row) { return model.index(row, TracksModel::stood_column).data().toString(); };
+        QCOMPARE(cell(0), QString());
+        panel.setDoings(doings);
+        QCOMPARE(cell(0), QStringLiteral("3.0"));  // 75 frames at 25 Hz
+        QCOMPARE(cell(1), QStringLiteral("0.0"));
+        QCOMPARE(cell(2), QString());
+        panel.table()->sortByColumn(TracksModel::stood_column, Qt::DescendingOrder);
+        QCOMPARE(listed(panel).at(0), 1);
+        QCOMPARE(listed(panel).at(1), 2);
+    }
+
     void columnsOfExtremesAreHiddenUntilSomebodyShowsThem() {
         TracksModel model;
         {
@@ -304,6 +323,7 @@ class TrackFilterTest : public QObject {
             const QHeaderView* header = panel.table()->horizontalHeader();
             QVERIFY(panel.table()->isColumnHidden(TracksModel::lowest_column));
             QVERIFY(panel.table()->isColumnHidden(TracksModel::highest_column));
+            QVERIFY(panel.table()->isColumnHidden(TracksModel::stood_column));
             QCOMPARE(header->visualIndex(TracksModel::lowest_column),
                      header->visualIndex(TracksModel::speed_column) + 1);
             panel.table()->showColumn(TracksModel::highest_column);

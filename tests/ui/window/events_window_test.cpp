@@ -11,6 +11,8 @@
 #include "review/events/event_thresholds.h"
 #include "review/events/events_dock.h"
 #include "review/events/events_panel.h"
+#include "review/pictures/picture_column.h"
+#include "review/tracks/tracks_panel.h"
 #include "ui/session/session_support.h"
 #include "ui/support/ui_test.h"
 #include "ui/window/window_with_run.h"
@@ -58,6 +60,34 @@ class EventsWindowTest : public QObject {
         QTest::keyClick(window.get(), Qt::Key_1, Qt::ControlModifier);
         QVERIFY(window->actions().relevant->isEnabled());
         QVERIFY(!window->timeline().marks().empty());
+    }
+
+    void listsOfEventsAndTracksShowTheirVehicles() {
+        const auto window = windowWithEvents();
+        QVERIFY(window);
+        EventsPanel& events = window->events().panel();
+        auto* of_events = events.findChild<PictureColumn*>();
+        events.table()->showColumn(EventsModel::picture_column);
+        const EventEntry* entry = nullptr;
+        for (int row = 0; entry == nullptr; ++row) {
+            entry = window->events().model().recordAt(row);
+            QVERIFY(entry != nullptr);
+            if (window->events().model().found()->eventAt(entry->position) == nullptr) entry = nullptr;
+        }
+        const int id = entry->id;
+        events.selectId(id);
+        QTRY_VERIFY_WITH_TIMEOUT(of_events->pictureOf(id) != nullptr, kPatience_ms);
+        QVERIFY(!of_events->pictureOf(id)->isNull());
+
+        auto* tracks = window->findChild<TracksPanel*>();
+        auto* of_tracks = tracks->findChild<PictureColumn*>();
+        window->docks().raise(DockId::tracks);
+        tracks->table()->showColumn(TracksModel::picture_column);
+        const int track = window->events().review().tracks()->tracks.front().id;
+        QVERIFY2(of_tracks->pictureOf(track) == nullptr, "nobody looked at it yet");
+        tracks->selectId(track);
+        QTRY_VERIFY_WITH_TIMEOUT(of_tracks->pictureOf(track) != nullptr, kPatience_ms);
+        QVERIFY(!of_tracks->pictureOf(track)->isNull());
     }
 
     void rowsOfKindsAreFoldedByACommandAndThatIsKept() {

@@ -18,6 +18,7 @@
 #include "canvas/layers/stages/vector_layer.h"
 #include "canvas/layers/track_layer.h"
 #include "canvas/layers/zone_layer.h"
+#include "canvas/timeline/timeline_view.h"
 #include "canvas/video_view.h"
 #include "label/label_actions.h"
 #include "label/label_workspace.h"
@@ -222,6 +223,31 @@ class WorkspacesTest : public QObject {
                                     .arg(window->canvas().width())
                                     .arg(window->canvas().height())));
         }
+    }
+
+    void whereOneLabelsTheVideoKeepsHalfOfTheAreaOfASmallWindow() {
+        const auto window = windowWithVideo();
+        QVERIFY(window);
+        window->findChild<MessageBar*>()->setMaximumHeight(0);  // notices pass
+        constexpr int kWholeTimeline = 104;                     // at least
+        go(*window, Qt::Key_2);
+        const auto settled = [&] { return window->timeline().height() == window->timeline().sizeHint().height(); };
+        QTRY_VERIFY_WITH_TIMEOUT(settled(), kPatience_ms);
+        QTest::qWait(0);
+        QVERIFY2(window->size() == QSize(1280, 720), qPrintable(sizes(*window)));
+        const QSize video = window->canvas().size();
+        QVERIFY2(2 * video.width() * video.height() >= window->width() * window->height(),
+                 qPrintable(QStringLiteral("%1 x %2; %3").arg(video.width()).arg(video.height()).arg(sizes(*window))));
+        QVERIFY2(shown(*window, DockId::objects) && shown(*window, DockId::object), "list and object are seen, too");
+        QVERIFY(!window->docks().dock(DockId::objects)->visibleRegion().isEmpty());
+        QVERIFY(!window->docks().dock(DockId::object)->visibleRegion().isEmpty());
+        // The timeline leaves nothing out elsewhere, nor where there is room.
+        QVERIFY(window->timeline().sizeHint().height() < kWholeTimeline);
+        go(*window, Qt::Key_1);
+        QVERIFY(window->timeline().sizeHint().height() >= kWholeTimeline);
+        go(*window, Qt::Key_2);
+        window->resize(1280, 900);
+        QTRY_VERIFY_WITH_TIMEOUT(window->timeline().sizeHint().height() >= kWholeTimeline, kPatience_ms);
     }
 
     void aFinishedRunDoesNotPushAWindowOffASmallScreen() {

@@ -19,6 +19,24 @@ void TimelineView::paintEvent(QPaintEvent*) {
     painter.fillRect(rect(), palette().window());
     if (axis_.frameCount() == 0) return;
     const Rows row = rows();
+    paintNames(painter, row);
+    paintRuler(painter, row.ruler);
+    painter.save();
+    painter.setClipRect(QRectF(axis_.left() - 1, 0, axis_.right() - axis_.left() + 2, height()));
+    paintQuality(painter, row.quality);
+    if (!brief_) {
+        paintMarks(painter, row.marks);
+        paintKinds(painter, row.kinds);
+        paintWatched(painter, row.watched);
+        activity().paint(painter, row.activity, axis_);
+        paintTrackLife(painter, row.track);
+    }
+    paintSeams(painter);
+    painter.restore();
+    paintCursor(painter);
+}
+
+void TimelineView::paintNames(QPainter& painter, const Rows& row) const {
     painter.setPen(palette().color(QPalette::PlaceholderText));
     const auto name = [&](const QRectF& beside, const QString& text) {
         painter.drawText(QRectF(8, beside.top(), axis_.left() - 16, beside.height()), Qt::AlignVCenter | Qt::AlignRight,
@@ -26,6 +44,7 @@ void TimelineView::paintEvent(QPaintEvent*) {
     };
     name(row.ruler, utc_at_ ? tr("Time (UTC)") : tr("Time"));
     name(row.quality, tr("Registration"));
+    if (brief_) return;
     if (!marks_.empty())
         name(row.marks, kinds_.empty() ? marks_name_
                         : kinds_shown_ ? QStringLiteral("▾ ") + marks_name_
@@ -45,18 +64,6 @@ void TimelineView::paintEvent(QPaintEvent*) {
         painter.setPen(palette().color(QPalette::PlaceholderText));
     }
     name(row.track, track_life_ ? track_name_ : tr("Selected"));
-    paintRuler(painter, row.ruler);
-    painter.save();
-    painter.setClipRect(QRectF(axis_.left() - 1, 0, axis_.right() - axis_.left() + 2, height()));
-    paintQuality(painter, row.quality);
-    paintMarks(painter, row.marks);
-    paintKinds(painter, row.kinds);
-    paintWatched(painter, row.watched);
-    activity().paint(painter, row.activity, axis_);
-    paintTrackLife(painter, row.track);
-    paintSeams(painter);
-    painter.restore();
-    paintCursor(painter);
 }
 
 void TimelineView::paintRuler(QPainter& painter, const QRectF& row) const {

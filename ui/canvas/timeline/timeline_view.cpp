@@ -6,6 +6,7 @@
 #include <QWheelEvent>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/time_text.h"
 #include "core/utc_time.h"
@@ -21,6 +22,7 @@ constexpr double kMarkHeight = 12;
 constexpr double kWatchedHeight = 12;  ///< of the row: its name must be read
 constexpr double kMarkReach = 5;       ///< px beside a mark that count as on it
 constexpr int kHeight = 104;
+constexpr int kBriefHeight = 42;
 
 /// A moment (µs, not negative) to so many decimals of the seconds, 0 to 6.
 std::int64_t roundedToDecimals(std::int64_t time_us, int decimals) {
@@ -105,7 +107,14 @@ void TimelineView::setTrackLife(std::optional<std::pair<FrameIndex, FrameIndex>>
     update();
 }
 
+void TimelineView::setBrief(bool brief) {
+    if (brief == std::exchange(brief_, brief)) return;
+    updateGeometry();
+    update();
+}
+
 int TimelineView::wantedHeight() const {
+    if (brief_) return kBriefHeight;
     return kHeight + (marks_.empty() ? 0 : static_cast<int>(kMarkHeight + kGap - 2)) +
            (kindsHeight() > 0 ? static_cast<int>(kindsHeight() + kGap - 2) : 0) +
            (watched_ ? static_cast<int>(kWatchedHeight + kGap - 2) : 0);
@@ -224,6 +233,7 @@ TimelineView::Rows TimelineView::rows() const {
     const double width = axis_.right() - left;
     rows.ruler = QRectF(left, 0, width, kRulerHeight);
     rows.quality = QRectF(left, rows.ruler.bottom() + 2, width, kQualityHeight);
+    if (brief_) return rows;
     rows.track = QRectF(left, height() - kTrackHeight - 4, width, kTrackHeight);
     const double top = rows.quality.bottom() + (marks_.empty() ? 0 : kGap - 2);
     rows.marks = QRectF(left, top, width, marks_.empty() ? 0 : kMarkHeight);

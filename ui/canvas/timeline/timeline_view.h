@@ -63,6 +63,8 @@ class TimelineView : public QWidget {
     bool kindsShown() const { return kinds_shown_; }
     /// Where one of them is drawn; nothing when it is out of view, or the rows are folded.
     std::optional<QPointF> placeInKinds(int id) const;
+    /// With nothing but ruler and registration, where other rows follow below and room is scarce.
+    void setBrief(bool brief);
     /// What anybody watched, merged spans, in a thin row of its own, which is there while that is known.
     void setWatched(std::optional<std::vector<FrameSpan>> spans);
     const std::optional<std::vector<FrameSpan>>& watched() const { return watched_; }
@@ -106,6 +108,7 @@ class TimelineView : public QWidget {
     };
     Rows rows() const;
     void layoutAxis();
+    void paintNames(QPainter& painter, const Rows& row) const;
     void paintRuler(QPainter& painter, const QRectF& row) const;
     int wantedHeight() const;
     void paintQuality(QPainter& painter, const QRectF& row) const;
@@ -141,6 +144,7 @@ class TimelineView : public QWidget {
     TimelineMarks marks_;
     TimelineKinds kinds_;
     bool kinds_shown_ = true;
+    bool brief_ = false;
     std::function<QString(int id)> describe_mark_;
     std::optional<std::vector<FrameSpan>> watched_;
     TimelineSeams seams_;

@@ -24,6 +24,12 @@ QString kindText(int listed_kind, const std::string& zone, CrossingSense sense) 
     return text;
 }
 
+/// From the beginning of the first frame to the end of the last.
+double secondsOf(const FoundEvents& found, FrameSpan frames) {
+    return found.run->secondsOf(frames.last) - found.run->secondsOf(frames.first) +
+           1 / found.run->footage.scale.frame_rate_hz;
+}
+
 QPixmap judgementPixmap(Judgement judgement, bool dark) {
     constexpr int kSize = 14;
     constexpr int kScale = 2;
@@ -94,9 +100,22 @@ QString eventTracksText(const FoundEvents& found, std::size_t position) {
 QString eventFigureText(const FoundEvents& found, std::size_t position) {
     const Event* event = found.eventAt(position);
     if (event != nullptr) return QString::fromStdString(figureText(*event));
+    return durationText(secondsOf(found, found.framesAt(position)));
+}
+
+std::optional<double> eventSeconds(const FoundEvents& found, std::size_t position) {
     const FrameSpan frames = found.framesAt(position);
-    return durationText(found.run->secondsOf(frames.last) - found.run->secondsOf(frames.first) +
-                        1 / found.run->footage.scale.frame_rate_hz);
+    if (found.eventAt(position) != nullptr && frames.first == frames.last) return std::nullopt;
+    return secondsOf(found, frames);
+}
+
+std::optional<double> eventSpeed(const FoundEvents& found, std::size_t position, double SpeedRange::*which) {
+    const Event* event = found.eventAt(position);
+    const auto speeds = found.speedsAt(position);
+    if (event == nullptr || !speeds) return std::nullopt;
+    const SceneScale& scale = found.run->footage.scale;
+    const SceneScale here = scale.at(event->place);
+    return shownSpeed(here.pxPerFrame((*speeds).*which), here);
 }
 
 QString eventTipText(const FoundEvents& found, std::size_t position) {

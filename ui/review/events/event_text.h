@@ -3,6 +3,7 @@
 #include <QColor>
 #include <QIcon>
 #include <QString>
+#include <optional>
 #include <string>
 
 #include "review/events/found_events.h"
@@ -24,6 +25,11 @@ QString eventClockText(const FoundEvents& found, std::size_t position);
 QString eventTracksText(const FoundEvents& found, std::size_t position);
 /// "43 km/h"; of what has no figure, how long it lasts.
 QString eventFigureText(const FoundEvents& found, std::size_t position);
+/// How long it lasts, s; nothing for what happens in a moment.
+std::optional<double> eventSeconds(const FoundEvents& found, std::size_t position);
+/// The lowest or the highest speed while it lasts, in the unit of speedUnit() of the run's scale; nothing where that is
+/// not known.
+std::optional<double> eventSpeed(const FoundEvents& found, std::size_t position, double SpeedRange::*which);
 /// Kind, zone and sense, number, frames and place in the queue, for tooltips. Without what was said about it.
 QString eventTipText(const FoundEvents& found, std::size_t position);
 

@@ -13,6 +13,7 @@
 #include "review/events/event_thresholds.h"
 #include "review/events/events_panel.h"
 #include "review/events/left_list.h"
+#include "review/pictures/picture_column.h"
 #include "review/runs/run_text.h"
 #include "review/zones/zone_review.h"
 #include "review/zones/zones_panel.h"
@@ -70,6 +71,10 @@ EventsDock::EventsDock(const EventsParts& parts)
     parts_.docks.add(DockId::bookmarks, tr("Bookmarks"), &bookmarks_->panel());
     parts_.docks.watch(DockId::bookmarks, panel_, [this](bool visible) {
         if (visible) review_->setWanted();
+    });
+    new PictureColumn(*panel_, EventsModel::picture_column, parts_.session, [this](int id) {
+        const auto place = placeOf(id);
+        return place && model_->found() ? placeOfEvent(*model_->found(), *place) : std::nullopt;
     });
     wireLists();
     bindCommands();

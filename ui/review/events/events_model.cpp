@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "review/events/event_text.h"
+#include "widgets/display_text.h"
 #include "widgets/tables/table_roles.h"
 
 namespace eyrie::ui {
@@ -28,8 +29,10 @@ void EventsModel::setEvents(const std::shared_ptr<const FoundEvents>& found,
         entries.push_back({idAt(*found, i, doubles), i, Judgement::open, false, {}, {}, {}});
         takeOver(entries.back(), verdict_at(i));
     }
+    const bool known_before = scale().gsd_known;
     found_ = found;
     replaceRecords(std::move(entries));
+    if (scale().gsd_known != known_before) emit headerDataChanged(Qt::Horizontal, lowest_column, highest_column);
 }
 
 void EventsModel::setVerdict(std::size_t position, const Verdict* verdict) {
@@ -100,6 +103,10 @@ QString EventsModel::tipOf(const EventEntry& entry) const {
     return lines.join(QLatin1Char('\n'));
 }
 
+std::optional<double> EventsModel::extremeOf(const EventEntry& entry, int column) const {
+    return eventSpeed(*found_, entry.position, column == lowest_column ? &SpeedRange::lowest : &SpeedRange::highest);
+}
+
 QString EventsModel::textOf(const EventEntry& entry, int column) const {
     switch (column) {
         case number_column:
@@ -116,6 +123,15 @@ QString EventsModel::textOf(const EventEntry& entry, int column) const {
             return judgementText(entry.judgement);
         case note_column:
             return entry.note;
+        case duration_column: {
+            const auto seconds = eventSeconds(*found_, entry.position);
+            return seconds ? durationText(*seconds) : QString();
+        }
+        case lowest_column:
+        case highest_column: {
+            const auto speed = extremeOf(entry, column);
+            return speed ? numberText(*speed, scale().gsd_known ? 1 : 2) : QString();
+        }
         default:
             return {};
     }
@@ -135,33 +151,80 @@ QVariant EventsModel::sortValueOf(const EventEntry& entry, int column) const {
             return event != nullptr ? static_cast<int>(event->unit) * 1e6 + event->figure : -1.0;
         case verdict_column:
             return static_cast<int>(entry.judgement);
+        case duration_column:
+            return eventSeconds(*found_, entry.position).value_or(0);
+        case lowest_column:
+        case highest_column:
+            return extremeOf(entry, column).value_or(-1);
+        case picture_column:
+            return static_cast<int>(entry.position);
         default:
             return textOf(entry, column);
     }
 }
 
+QString EventsModel::helpOf(int column) const {
+    switch (column) {
+        case number_column:
+            return tr(
+                "Number of the event, as eyrie-cli lists it with the same limits. ★: starred. The list is "
+                "in the order in which to review it; a third click on a heading brings that back");
+        case time_column:
+            return clock_.known() ? tr("When it begins, by %1").arg(clock_.origin()) : tr("When it begins");
+        case kind_column:
+            return tr("What happened");
+        case tracks_column:
+            return tr("Tracks it happened to");
+        case figure_column:
+            return tr("Speed, duration, angle or distance, depending on the kind");
+        case verdict_column:
+            return tr("Relevant, not relevant or unsure");
+        case note_column:
+            return tr("Your note; press F2 or click twice to write");
+        case duration_column:
+            return tr("How long it lasts; empty for what happens in a moment");
+        case lowest_column:
+            return tr("Lowest speed of its tracks over the ground while it lasts, in %1; 0 where one stands, empty for "
+                      "tracks followed too shortly to tell")
+                .arg(speedUnit(scale()));
+        case highest_column:
+            return tr("Highest speed of its tracks over the ground while it lasts, in %1; empty for tracks followed "
+                      "too shortly to tell")
+                .arg(speedUnit(scale()));
+        case picture_column:
+            return tr("The vehicle at the frame to look at, heading to the right");
+        default:
+            return {};
+    }
+}
+
 QVariant EventsModel::headerData(int section, Qt::Orientation orientation, int role) const {
-    if (orientation != Qt::Horizontal || (role != Qt::DisplayRole && role != Qt::ToolTipRole))
+    if (orientation == Qt::Horizontal && role == Qt::ToolTipRole) return helpOf(section);
+    if (orientation != Qt::Horizontal || role != Qt::DisplayRole)
         return RecordModel::headerData(section, orientation, role);
-    const bool tip = role == Qt::ToolTipRole;
     switch (section) {
         case number_column:
-            return tip ? tr("Number of the event, as eyrie-cli lists it with the same limits. ★: starred. The list is "
-                            "in the order in which to review it; a third click on a heading brings that back")
-                       : tr("#");
+            return tr("#");
         case time_column:
-            if (clock_.known()) return tip ? tr("When it begins, by %1").arg(clock_.origin()) : tr("Time (UTC)");
-            return tip ? tr("When it begins") : tr("Time");
+            return clock_.known() ? tr("Time (UTC)") : tr("Time");
         case kind_column:
-            return tip ? tr("What happened") : tr("Kind");
+            return tr("Kind");
         case tracks_column:
-            return tip ? tr("Tracks it happened to") : tr("Tracks");
+            return tr("Tracks");
         case figure_column:
-            return tip ? tr("Speed, duration, angle or distance, depending on the kind") : tr("Figure");
+            return tr("Figure");
         case verdict_column:
-            return tip ? tr("Relevant, not relevant or unsure") : tr("Verdict");
+            return tr("Verdict");
         case note_column:
-            return tip ? tr("Your note; press F2 or click twice to write") : tr("Note");
+            return tr("Note");
+        case duration_column:
+            return tr("Duration");
+        case lowest_column:
+            return tr("Lowest (%1)").arg(speedUnit(scale()));
+        case highest_column:
+            return tr("Highest (%1)").arg(speedUnit(scale()));
+        case picture_column:
+            return tr("Picture");
         default:
             return {};
     }

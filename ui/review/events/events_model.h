@@ -3,6 +3,7 @@
 #include <QString>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -37,6 +38,10 @@ class EventsModel : public RecordModel<EventEntry> {
         figure_column,
         verdict_column,
         note_column,
+        duration_column,
+        lowest_column,
+        highest_column,
+        picture_column,  ///< PictureColumn paints it
         column_count
     };
 
@@ -74,6 +79,11 @@ class EventsModel : public RecordModel<EventEntry> {
     int idAt(const FoundEvents& found, std::size_t position, std::map<EventIdentity, int>& doubles);
     QString textOf(const EventEntry& entry, int column) const;
     QVariant sortValueOf(const EventEntry& entry, int column) const;
+    /// Of the run that is listed; the default where none is.
+    SceneScale scale() const { return found_ ? found_->run->footage.scale : SceneScale(); }
+    std::optional<double> extremeOf(const EventEntry& entry, int column) const;
+    /// What a column holds, for its title's tooltip.
+    QString helpOf(int column) const;
 
     std::shared_ptr<const FoundEvents> found_;
     std::map<EventIdentity, int> ids_;

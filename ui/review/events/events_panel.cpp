@@ -58,6 +58,9 @@ EventsPanel::EventsPanel(EventsModel* model, const WindowActions& actions, QWidg
     auto* rows = static_cast<QVBoxLayout*>(layout());
     rows->insertWidget(0, header_);
     rows->setStretch(2, 2);
+    placeAtFirst({EventsModel::duration_column}, EventsModel::figure_column);
+    hideAtFirst({EventsModel::lowest_column, EventsModel::highest_column}, EventsModel::duration_column);
+    hideAtFirst({EventsModel::picture_column}, EventsModel::number_column);
     buildFilters();
     buildButtons();
     rows->addWidget(thresholds_, 3);

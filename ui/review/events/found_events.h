@@ -16,6 +16,7 @@ namespace eyrie::ui {
 struct FoundEvents {
     std::shared_ptr<const StoredTracks> run;
     std::vector<Event> events;
+    std::vector<std::optional<SpeedRange>> event_speeds;  ///< as TrackFindings has them
     std::vector<FrameSpan> unsearched;
     std::vector<Zone> zones;  ///< that were watched
     std::vector<QueueItem> queue;
@@ -43,6 +44,11 @@ struct FoundEvents {
         const Event* event = eventAt(position);
         return event != nullptr ? event->frame : framesAt(position).first;
     }
+    /// How fast its tracks were while it lasted, m/s; nothing where that is not known.
+    std::optional<SpeedRange> speedsAt(std::size_t position) const {
+        const QueueItem& item = queue.at(position);
+        return item.is_event && item.index < event_speeds.size() ? event_speeds[item.index] : std::nullopt;
+    }
     ReviewSubject subjectAt(std::size_t position) const {
         const Event* event = eventAt(position);
         return event != nullptr ? subjectOf(*event, *run) : subjectOf(framesAt(position), *run);
@@ -53,10 +59,9 @@ struct FoundEvents {
 std::shared_ptr<const FoundEvents> findAndOrder(const std::shared_ptr<const StoredTracks>& run,
                                                 const EventOptions& options, const std::map<int, Verdict>& verdicts,
                                                 const std::vector<Zone>& zones = {});
-/// The same with events, and how fast the tracks were, that are known.
-std::shared_ptr<const FoundEvents> inOrder(const std::shared_ptr<const StoredTracks>& run, std::vector<Event> events,
-                                           const std::map<int, Verdict>& verdicts, const std::vector<Zone>& zones = {},
-                                           const std::map<TrackId, SpeedRange>& speeds = {});
+/// The same with what a search told.
+std::shared_ptr<const FoundEvents> inOrder(const std::shared_ptr<const StoredTracks>& run, TrackFindings findings,
+                                           const std::map<int, Verdict>& verdicts, const std::vector<Zone>& zones = {});
 
 /// Kinds as they are listed: those of events by their numbers, and behind them what could not be searched.
 inline constexpr int kListedKinds = kEventKinds + 1;

@@ -66,6 +66,12 @@ const TrackDoings& doingsIn(const DoingsByTrack* doings, TrackId track) {
     return found == doings->end() ? nothing : found->second;
 }
 
+int framesStood(const TrackDoings& did) {
+    int frames = 0;
+    for (const FrameSpan& span : did.standing) frames += span.last - span.first + 1;
+    return frames;
+}
+
 bool standsIn(const TrackDoings& did, FrameIndex frame) {
     return std::any_of(did.standing.begin(), did.standing.end(),
                        [&](const FrameSpan& span) { return span.first <= frame && frame <= span.last; });

@@ -31,6 +31,8 @@ struct TrackDoings {
 using DoingsByTrack = std::map<TrackId, TrackDoings>;
 /// What a track did; nothing where that is not known (null) or it did nothing. Valid as long as the doings.
 const TrackDoings& doingsIn(const DoingsByTrack* doings, TrackId track);
+/// In how many frames it stood.
+int framesStood(const TrackDoings& did);
 /// Whether it stood in a frame.
 bool standsIn(const TrackDoings& did, FrameIndex frame);
 

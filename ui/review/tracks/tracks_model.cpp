@@ -25,12 +25,19 @@ void TracksModel::setLikeness(std::shared_ptr<const LikenessByTrack> likeness) {
 void TracksModel::setDoings(std::shared_ptr<const DoingsByTrack> doings) {
     if (doings_ == doings) return;
     doings_ = std::move(doings);
-    if (rowCount() > 0) emit dataChanged(index(0, lowest_column), index(rowCount() - 1, highest_column));
+    if (rowCount() > 0) emit dataChanged(index(0, lowest_column), index(rowCount() - 1, stood_column));
 }
 
 std::optional<double> TracksModel::extremeOf(const TrackSummary& track, int column) const {
     return valueOf(track, column == lowest_column ? TrackQuality::lowest : TrackQuality::highest, scale_,
                    doingsIn(doings_.get(), track.id));
+}
+
+std::optional<double> TracksModel::stoodSecondsOf(const TrackSummary& track) const {
+    const TrackDoings& did = doingsIn(doings_.get(), track.id);
+    // Of one that was followed too shortly nobody knows whether it stood.
+    if (did.standing.empty() && !did.speeds) return std::nullopt;
+    return scale_.frame_rate_hz > 0 ? std::optional(framesStood(did) / scale_.frame_rate_hz) : std::nullopt;
 }
 
 void TracksModel::setClock(ClockOfFrames clock) {
@@ -106,6 +113,10 @@ QString TracksModel::textOf(const TrackSummary& track, int column) const {
             const auto speed = extremeOf(track, column);
             return speed ? numberText(*speed, scale_.gsd_known ? 1 : 2) : QString();
         }
+        case stood_column: {
+            const auto seconds = stoodSecondsOf(track);
+            return seconds ? numberText(*seconds, 1) : QString();
+        }
         default:
             return {};
     }
@@ -135,6 +146,10 @@ QVariant TracksModel::sortValueOf(const TrackSummary& track, int column) const {
         case lowest_column:
         case highest_column:
             return extremeOf(track, column).value_or(-1);
+        case stood_column:
+            return stoodSecondsOf(track).value_or(-1);
+        case picture_column:
+            return track.id;
         default:
             return textOf(track, column);
     }
@@ -177,6 +192,14 @@ QString TracksModel::helpOf(int column) const {
             return tr("Highest speed over the ground, in %1, as events measure it; empty until events are found, and "
                       "for tracks followed too shortly to tell")
                 .arg(speedUnit(scale_));
+        case stood_column:
+            return tr(
+                "For how long it stood, in seconds, as the events stops, starts and stands tell; empty until "
+                "events are found, and for tracks followed too shortly to tell");
+        case picture_column:
+            return tr(
+                "The vehicle in the middle of its life, heading to the right; none of tracks that are not part "
+                "of the result");
         default:
             return {};
     }
@@ -214,6 +237,10 @@ QVariant TracksModel::headerData(int section, Qt::Orientation orientation, int r
             return tr("Lowest (%1)").arg(speedUnit(scale_));
         case highest_column:
             return tr("Highest (%1)").arg(speedUnit(scale_));
+        case stood_column:
+            return tr("Stood (s)");
+        case picture_column:
+            return tr("Picture");
         default:
             return {};
     }

@@ -35,6 +35,8 @@ class TracksModel : public RecordModel<TrackSummary> {
         like_column,    ///< empty unless setLikeness()
         lowest_column,  ///< empty until setDoings(), as the next
         highest_column,
+        stood_column,
+        picture_column,  ///< PictureColumn paints it
         column_count
     };
 
@@ -43,7 +45,7 @@ class TracksModel : public RecordModel<TrackSummary> {
     void setTracks(std::vector<TrackSummary> tracks, const SceneScale& scale);
     /// How like the tracks are to one of them; null: nobody asked, or it is not known yet.
     void setLikeness(std::shared_ptr<const LikenessByTrack> likeness);
-    /// What the tracks did, for how fast they were; null while nobody knows.
+    /// What the tracks did, for how fast they were and how long they stood; null while nobody knows.
     void setDoings(std::shared_ptr<const DoingsByTrack> doings);
     /// Times of the day instead of numbers of frames, where they are known. To be given again when they are others.
     void setClock(ClockOfFrames clock);
@@ -64,6 +66,8 @@ class TracksModel : public RecordModel<TrackSummary> {
     QString helpOf(int column) const;
     /// In the unit shown; nothing where it is not known.
     std::optional<double> extremeOf(const TrackSummary& track, int column) const;
+    /// For how long it stood; nothing where that is not known.
+    std::optional<double> stoodSecondsOf(const TrackSummary& track) const;
     QVariant sortValueOf(const TrackSummary& track, int column) const;
     double secondsOf(const TrackSummary& track) const;
     SceneScale scale_;

@@ -72,7 +72,9 @@ TracksPanel::TracksPanel(TracksModel* model, QWidget* parent)
     whenAny(&proxy(), this, &TracksPanel::showCount, &QAbstractItemModel::modelReset, &QAbstractItemModel::rowsInserted,
             &QAbstractItemModel::rowsRemoved, &TableSortProxy::filtered);
     onEdited(this, &TracksPanel::filterTracks, tentative_);
-    hideAtFirst({TracksModel::lowest_column, TracksModel::highest_column}, TracksModel::speed_column);
+    hideAtFirst({TracksModel::lowest_column, TracksModel::highest_column, TracksModel::stood_column},
+                TracksModel::speed_column);
+    hideAtFirst({TracksModel::picture_column}, TracksModel::id_column);
     // Left over from a day that ended with such a list.
     table()->setColumnHidden(TracksModel::like_column, true);
     if (table()->horizontalHeader()->sortIndicatorSection() == TracksModel::like_column)

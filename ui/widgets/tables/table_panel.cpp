@@ -349,14 +349,20 @@ void TablePanel::restoreColumns() {
     if (shownColumns().isEmpty()) table_->showColumn(0);
 }
 
-void TablePanel::hideAtFirst(const QList<int>& columns, int beside) {
+void TablePanel::placeAtFirst(const QList<int>& columns, int beside) {
     QHeaderView* header = table_->horizontalHeader();
-    int place = header->visualIndex(beside) + 1;
-    for (const int column : columns) {
-        if (column < known_columns_) continue;
-        header->setSectionHidden(column, true);
-        header->moveSection(header->visualIndex(column), place++);
+    for (auto column = columns.rbegin(); column != columns.rend(); ++column) {
+        if (*column < known_columns_) continue;
+        const int from = header->visualIndex(*column);
+        const int left = header->visualIndex(beside);
+        header->moveSection(from, from > left ? left + 1 : left);
     }
+}
+
+void TablePanel::hideAtFirst(const QList<int>& columns, int beside) {
+    for (const int column : columns)
+        if (column >= known_columns_) table_->horizontalHeader()->setSectionHidden(column, true);
+    placeAtFirst(columns, beside);
 }
 
 void TablePanel::saveColumns() const {

@@ -43,6 +43,8 @@ class TablePanel : public QWidget {
 
  protected:
     TableSortProxy& proxy() { return *proxy_; }
+    /// Columns that stand right of `beside` until a person moves them. For constructors.
+    void placeAtFirst(const QList<int>& columns, int beside);
     /// Columns that are hidden, and stand right of `beside`, until a person shows or moves them. For constructors.
     void hideAtFirst(const QList<int>& columns, int beside);
     /// Place for buttons right of the filter line.
