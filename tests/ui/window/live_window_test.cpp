@@ -1,4 +1,5 @@
 #include <QAction>
+#include <QLayout>
 #include <QLineEdit>
 #include <QPushButton>
 #include <QSignalSpy>
