@@ -26,6 +26,9 @@ sigset_t stopSignals() {
 InterruptGuard::InterruptGuard() {
     const sigset_t set = stopSignals();
     pthread_sigmask(SIG_BLOCK, &set, nullptr);
+    // What came while whoever started us held signals back is not left to when the watcher wakes up.
+    const timespec no_time{};
+    if (sigtimedwait(&set, nullptr, &no_time) >= 0) stop_.request_stop();
     watcher_ = std::jthread([this](const std::stop_token& done) {
         const sigset_t waited = stopSignals();
         while (!done.stop_requested()) {

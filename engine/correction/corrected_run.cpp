@@ -135,6 +135,33 @@ std::vector<TrackFrame> trackStates(const RunStore& store, int run_id, TrackId t
     return store.trackStates(run_id, track);
 }
 
+std::vector<TrackFrame> trackBeside(const RunStore& store, int run_id, const TrackCorrection& rejection,
+                                    const std::set<TrackId>& but, const CorrectedTracks& corrected) {
+    struct Met {
+        std::size_t boxes = 0;
+        double likeness = 0;
+    };
+    std::map<TrackId, Met> met;
+    for (const Sighting& sighting : rejection.track) {
+        for (const TrackFrame& each : trackStatesUpTo(store, run_id, sighting.frame, 1, corrected)) {
+            const auto like = likenessOf(sighting.box, each.state.box);
+            if (!like || but.contains(each.state.id)) continue;
+            ++met[each.state.id].boxes;
+            met[each.state.id].likeness += *like;
+        }
+    }
+    std::vector<TrackFrame> best;
+    double most = 0;
+    for (const auto& [id, of_track] : met) {
+        if (2 * of_track.boxes < rejection.track.size() || of_track.likeness <= most) continue;
+        std::vector<TrackFrame> states = trackStates(store, run_id, id, corrected);
+        if (!isOfResult(states)) continue;
+        most = of_track.likeness;
+        best = std::move(states);
+    }
+    return best;
+}
+
 std::vector<TrackFrame> trackStatesUpTo(const RunStore& store, int run_id, FrameIndex frame, int trail,
                                         const CorrectedTracks& corrected) {
     std::vector<TrackFrame> states = store.trackStatesUpTo(run_id, frame, trail);

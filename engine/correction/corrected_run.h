@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <vector>
 
 #include "correction/corrected_tracks.h"
@@ -22,6 +23,10 @@ std::vector<TrackSummary> trackSummaries(const RunStore& store, int run_id, cons
 std::vector<TrackSummary> rejectedSummaries(const RunStore& store, int run_id, const CorrectedTracks& corrected);
 /// As RunStore::trackStates().
 std::vector<TrackFrame> trackStates(const RunStore& store, int run_id, TrackId track, const CorrectedTracks& corrected);
+/// The track of the result that lies best on at least half of the boxes by which a rejected one is found again: both
+/// are on one vehicle. Those of `but` do not count. Empty: there is none.
+std::vector<TrackFrame> trackBeside(const RunStore& store, int run_id, const TrackCorrection& rejection,
+                                    const std::set<TrackId>& but, const CorrectedTracks& corrected);
 /// As RunStore::trackStatesUpTo().
 std::vector<TrackFrame> trackStatesUpTo(const RunStore& store, int run_id, FrameIndex frame, int trail,
                                         const CorrectedTracks& corrected);

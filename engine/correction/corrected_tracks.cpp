@@ -94,9 +94,16 @@ class Workbench {
 
     /// The track that lies best on at least half of them; 0 for none.
     TrackId match(const std::vector<Sighting>& sightings) const {
+        return match(sightings, [](TrackId, const CorrectedTrack&) { return true; });
+    }
+
+    /// The same of those that are `meant`.
+    template <class Meant>
+    TrackId match(const std::vector<Sighting>& sightings, const Meant& meant) const {
         TrackId best = 0;
         double most = 0;
         for (const auto& [id, track] : present_) {
+            if (!meant(id, track)) continue;
             std::size_t hits = 0;
             double likeness = 0;
             for (const Sighting& each : sightings) {
@@ -206,12 +213,21 @@ class Workbench {
         const States& states = present_[id].states;
         if (!livesMostly(sightingsOf(states.begin(), states.end()), seen.front().frame, seen.back().frame))
             return CorrectionState::no_track;
+        if (isAlone(id, ofRun(correction.other))) return CorrectionState::alone;
         CorrectedTrack track = present_[id];
         drop(id);
         track.kind = CorrectionKind::reject;
         track.corrections.push_back(correction.id);
         rejected_[id] = std::move(track);
         return CorrectionState::applied;
+    }
+
+    /// Whether a track is the only one of the result on a vehicle of which `kept` are boxes.
+    bool isAlone(TrackId id, const std::vector<Sighting>& kept) const {
+        const bool lies_on_it = match(kept, [&](TrackId each, const CorrectedTrack&) { return each == id; }) != 0;
+        return lies_on_it && match(kept, [&](TrackId each, const CorrectedTrack& track) {
+                                 return each != id && isOfResult(track.states);
+                             }) == 0;
     }
 
     /// Whether half of the boxes or more are of these frames.
@@ -255,12 +271,13 @@ class Workbench {
 }  // namespace
 
 const char* nameOf(CorrectionState state) {
-    constexpr std::array<const char*, 6> kNames = {"applied",
+    constexpr std::array<const char*, 7> kNames = {"applied",
                                                    "covered by the run's own",
                                                    "no such track near",
                                                    "the tracks are in different places at the same time",
                                                    "not searched by this run",
-                                                   "not found by this run"};
+                                                   "not found by this run",
+                                                   "the only track of its vehicle in this run"};
     return kNames.at(static_cast<std::size_t>(state));
 }
 
@@ -370,12 +387,18 @@ TrackCorrection splitOf(const std::vector<TrackFrame>& track, FrameIndex frame) 
     return correction;
 }
 
-TrackCorrection rejectionOf(const std::vector<TrackFrame>& track) {
+TrackCorrection rejectionOf(const std::vector<TrackFrame>& track, const std::vector<TrackFrame>& beside) {
     TrackCorrection correction;
     correction.kind = CorrectionKind::reject;
     correction.frame = track.front().frame;
     correction.track = sightingsOf(track.begin(), track.end());
+    correction.other = sightingsOf(from(beside, track.front().frame), from(beside, track.back().frame + 1));
     return correction;
+}
+
+bool isOfResult(const std::vector<TrackFrame>& states) {
+    return std::any_of(states.begin(), states.end(),
+                       [](const TrackFrame& each) { return each.state.status != TrackStatus::tentative; });
 }
 
 }  // namespace eyrie

@@ -21,7 +21,8 @@ enum class CorrectionState {
     no_track,      ///< no track of the run is where it was made
     apart,         ///< join: the two are in different places at one time
     not_searched,  ///< the run does not hold these frames
-    absent         ///< reject: the run has no such track, as the person wants it
+    absent,        ///< reject: the run has no such track, as the person wants it
+    alone          ///< reject: of a vehicle that had two tracks, the run has one only
 };
 /// For people: "no such track near".
 const char* nameOf(CorrectionState state);
@@ -67,7 +68,8 @@ struct TracksToCorrect {
 /// one that begins first; gaps of up to ten seconds are filled over the ground as far as `camera` connects the frames.
 /// A split leaves the id to the earlier part. An added track of which most lies on tracks is covered by them. A
 /// rejected track is one that lives for the most part while the one that was rejected did: a longer one may be of a
-/// vehicle. The result depends on nothing but the arguments.
+/// vehicle. Where another track on the same vehicle was kept, one that lies on the kept one, too, with no other there,
+/// is the vehicle's. The result depends on nothing but the arguments.
 CorrectedTracks correctTracks(const TracksToCorrect& run, const std::map<int, TrackCorrection>& corrections,
                               const CameraMotion& camera);
 
@@ -80,7 +82,11 @@ TrackCorrection additionOf(std::vector<Sighting> boxes, FrameIndex drawn);
 TrackCorrection joinOf(const std::vector<TrackFrame>& one, const std::vector<TrackFrame>& other);
 /// `frame` is the first of the later part. Throws Error(parameter) where it leaves nothing of the track.
 TrackCorrection splitOf(const std::vector<TrackFrame>& track, FrameIndex frame);
-TrackCorrection rejectionOf(const std::vector<TrackFrame>& track);
+/// `beside`: the track on the same vehicle that is kept; none: there is no such.
+TrackCorrection rejectionOf(const std::vector<TrackFrame>& track, const std::vector<TrackFrame>& beside = {});
+
+/// Whether any of these states makes the track part of a result.
+bool isOfResult(const std::vector<TrackFrame>& states);
 
 /// Those of many boxes by which tracks are compared with what a correction holds: a few dozen, evenly.
 std::vector<Sighting> comparedOf(const std::vector<Sighting>& sightings);

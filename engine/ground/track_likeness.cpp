@@ -1,6 +1,7 @@
 #include "ground/track_likeness.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -24,6 +25,15 @@ constexpr double kSpeedSpread = 0.4;       ///< of the logarithm
 constexpr double kSizeSpread = 0.3;        ///< of the logarithm
 constexpr double kSpeedFloor_mps = 1;      ///< what differs by less is hardly another speed
 constexpr double kPartialWayPower = 0.25;  ///< how much it counts that one path is shorter
+
+struct LikenessPart {
+    const char* name;
+    bool LikenessChoice::*counts;
+};
+constexpr std::array<LikenessPart, 4> kLikenessParts{{{"path", &LikenessChoice::path},
+                                                      {"speed", &LikenessChoice::speed},
+                                                      {"size", &LikenessChoice::size},
+                                                      {"looks", &LikenessChoice::looks}}};
 
 /// A place of a path, in metres on its ground.
 struct PathPlace {
@@ -236,7 +246,6 @@ TrackLikeness likenessOf(const LikenessFacts& chosen, const LikenessFacts& other
         found.path = common.agreement / common.way * std::pow(share, kPartialWayPower);
     }
     if (common.agreement > 0) found.speed = common.speed / common.agreement;
-    found.likeness = likenessBy(found, {});
     return found;
 }
 
@@ -255,6 +264,36 @@ double unitOf(const StoredTracks& run, const GroundStretches& ground) {
 }
 
 }  // namespace
+
+LikenessChoice LikenessChoice::named(const std::vector<std::string>& names) {
+    LikenessChoice counts{false, false, false, false};
+    for (const std::string& name : names) {
+        const auto* part = std::find_if(kLikenessParts.begin(), kLikenessParts.end(),
+                                        [&](const LikenessPart& each) { return name == each.name; });
+        if (part == kLikenessParts.end())
+            throw Error(ErrorKind::parameter,
+                        "there is no likeness by \"" + name + "\"; there are: path, speed, size, looks");
+        counts.*(part->counts) = true;
+    }
+    if (!counts.any())
+        throw Error(ErrorKind::parameter, "something has to count for likeness: path, speed, size, looks");
+    return counts;
+}
+
+std::vector<std::string> LikenessChoice::names() const {
+    std::vector<std::string> names;
+    for (const LikenessPart& each : kLikenessParts)
+        if (this->*(each.counts)) names.emplace_back(each.name);
+    return names;
+}
+
+void orderBy(const LikenessChoice& counts, std::vector<TrackLikeness>& found) {
+    for (TrackLikeness& each : found) each.likeness = likenessBy(each, counts);
+    std::stable_sort(found.begin(), found.end(), [](const TrackLikeness& a, const TrackLikeness& b) {
+        return std::tuple(-a.likeness, -a.speed * a.size, a.track) <
+               std::tuple(-b.likeness, -b.speed * b.size, b.track);
+    });
+}
 
 double likenessBy(const TrackLikeness& parts, const LikenessChoice& counts) {
     double product = 1;
@@ -295,10 +334,7 @@ std::vector<TrackLikeness> tracksLike(const StoredTracks& run, const GroundStret
         found.push_back(likenessOf(facts.at(chosen), of_track));
         found.back().track = id;
     }
-    std::stable_sort(found.begin(), found.end(), [](const TrackLikeness& a, const TrackLikeness& b) {
-        return std::tuple(-a.likeness, -a.speed * a.size, a.track) <
-               std::tuple(-b.likeness, -b.speed * b.size, b.track);
-    });
+    orderBy({}, found);
     return found;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "events/event_options.h"
@@ -40,6 +41,11 @@ struct LikenessChoice {
     bool size = true;
     bool looks = false;  ///< needs pictures to be read
 
+    /// "path", "speed", "size", "looks" make it so. Throws Error(parameter) for other names, and for none.
+    static LikenessChoice named(const std::vector<std::string>& names);
+    /// The names of what counts, in that order.
+    std::vector<std::string> names() const;
+
     bool any() const { return path || speed || size || looks; }
     bool operator==(const LikenessChoice&) const = default;
 };
@@ -48,11 +54,15 @@ struct LikenessChoice {
 /// not known are left out of it; 0 where nothing is left.
 double likenessBy(const TrackLikeness& parts, const LikenessChoice& counts);
 
+/// Lets what counts be their likeness, and orders them: the most like first; equally like ones by speed and size, then
+/// by id.
+void orderBy(const LikenessChoice& counts, std::vector<TrackLikeness>& found);
+
 /// Adds the likeness of looks to that of tracks like `chosen`.
 void compareLooks(std::vector<TrackLikeness>& found, const LooksByTrack& looks, TrackId chosen);
 
-/// All other tracks of the run, the most like first; equally like ones by speed and size, then by id. What vehicles
-/// look like is not known: runs need not keep pictures of them. `ground` must be that of the run's footage. Throws
+/// All other tracks of the run, in the order of orderBy() where nothing else is said. What vehicles look like is not
+/// known: runs need not keep pictures of them. `ground` must be that of the run's footage. Throws
 /// Error(parameter) where the run has no such track.
 std::vector<TrackLikeness> tracksLike(const StoredTracks& run, const GroundStretches& ground, TrackId chosen,
                                       const EventOptions& options = {});

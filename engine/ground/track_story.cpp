@@ -34,6 +34,7 @@ std::vector<StoryPoint> chosenAround(const std::vector<StoryPoint>& story, Frame
     const auto middle = std::min_element(story.begin(), story.end(), [around](const auto& a, const auto& b) {
         return std::abs(a.frame - around) < std::abs(b.frame - around);
     });
+    if (most == 1) return {*middle};
     std::vector<StoryPoint> near;
     for (const StoryPoint& point : story)
         if (point.seconds >= middle->seconds - before_s && point.seconds <= middle->seconds + after_s)
@@ -41,7 +42,7 @@ std::vector<StoryPoint> chosenAround(const std::vector<StoryPoint>& story, Frame
     if (static_cast<int>(near.size()) <= most) return near;
     std::vector<StoryPoint> chosen;
     for (int i = 0; i < most; ++i) {
-        const double at = most == 1 ? 0 : static_cast<double>(i) * static_cast<double>(near.size() - 1) / (most - 1);
+        const double at = static_cast<double>(i) * static_cast<double>(near.size() - 1) / (most - 1);
         chosen.push_back(near[static_cast<std::size_t>(std::lround(at))]);
     }
     return chosen;

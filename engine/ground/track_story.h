@@ -27,7 +27,7 @@ std::vector<StoryPoint> storyOf(const StoredTracks& run, const GroundStretches& 
                                 FrameIndex around, const EventOptions& options = {});
 
 /// The frames of a story to look at around one: at most `most`, evenly spread from `before_s` before to `after_s`
-/// after.
+/// after; of one alone, that nearest to `around`.
 std::vector<StoryPoint> chosenAround(const std::vector<StoryPoint>& story, FrameIndex around, double before_s,
                                      double after_s, int most);
 

@@ -280,5 +280,22 @@ TEST_F(Outputs, AClosedTerminalStopsARunCleanly) {
     EXPECT_THAT(result.output, HasSubstr("stopped"));
 }
 
+TEST_F(Outputs, CtrlCEndsAnExportAndLeavesNothing) {
+    // Held back until the command takes it, so that no moment has to be met.
+    sigset_t ctrl_c;
+    sigemptyset(&ctrl_c);
+    sigaddset(&ctrl_c, SIGINT);
+    sigset_t before;
+    pthread_sigmask(SIG_BLOCK, &ctrl_c, &before);
+    test::Process process({test::programPath("eyrie-cli"), "export", "--project", at("p.eyrie"), "--format", "native",
+                           "--out", at("tracks.csv")});
+    kill(process.pid(), SIGINT);
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    const auto result = process.wait();
+    EXPECT_EQ(result.exit_code, 130) << result.errors;
+    EXPECT_THAT(result.errors, HasSubstr("tracks.csv: stopped before it was written"));
+    EXPECT_FALSE(fs::exists(at("tracks.csv")));
+}
+
 }  // namespace
 }  // namespace eyrie::outputs_test

@@ -183,6 +183,30 @@ TEST_F(CorrectedRun, ANewRunCarriesRejectionsOver) {
     EXPECT_EQ(readCorrectedTracks(*project_, third).states.at(1), CorrectionState::absent);
 }
 
+TEST_F(CorrectedRun, TheTrackBesideARejectedOneIsThatOfTheResultThatLiesBestOnIt) {
+    std::vector<TrackFrame> tentative = drivenStates(5, 0, 59, 10, 50);
+    for (TrackFrame& each : tentative) each.state.status = TrackStatus::tentative;
+    const auto twin = drivenStates(6, 10, 40, 10);
+    const RunRecord run = test::writeRun(path_, kFrames, [&](int frame, FrameResult& result) {
+        for (const auto& states : {drivenStates(2, 0, 59, 13), drivenStates(4, 0, 59, 11), tentative, twin,
+                                   drivenStates(8, 0, 12, 10), drivenStates(9, 0, 59, 10, 90)})
+            for (const TrackFrame& each : states)
+                if (each.frame == frame) result.tracks.push_back(each.state);
+    });
+    const RunStore store(*project_);
+    const auto besideBut = [&](const std::set<TrackId>& but) {
+        const auto beside = trackBeside(store, run.id, rejectionOf(twin), but, {});
+        return beside.empty() ? 0 : beside.front().state.id;
+    };
+    EXPECT_EQ(besideBut({6}), 4);
+    EXPECT_EQ(besideBut({4, 6}), 2);
+    EXPECT_EQ(besideBut({2, 4, 6}), 0) << "one is tentative, one there for less than half of it, one elsewhere";
+    const TrackCorrection rejection = rejectionOf(twin, trackBeside(store, run.id, rejectionOf(twin), {6}, {}));
+    ASSERT_FALSE(rejection.other.empty());
+    EXPECT_GE(rejection.other.front().frame, 10);
+    EXPECT_LE(rejection.other.back().frame, 40);
+}
+
 TEST_F(CorrectedRun, ANewRunOfTheVideoCarriesThemOver) {
     correct(joinOf(early_, late_));
     correct(additionOf(drivenSightings(5, 58, 10, 20), 30));

@@ -450,6 +450,33 @@ TEST(CarriedCorrections, ATrackThatLivesForLongerThanTheRejectedOneIsLeftToThePe
     EXPECT_EQ(corrected(before, {rejection}).states.at(1), CorrectionState::not_searched);
 }
 
+TEST(CarriedCorrections, TheOnlyTrackOfAVehicleThatHadTwoIsNotRejected) {
+    const auto kept = drivenStates(3, 0, 90, 10), twin = drivenStates(7, 20, 60, 12);
+    const TrackCorrection rejection = rejectionOf(twin, kept);
+    EXPECT_THAT(corrected(runOf({{3, kept}, {7, twin}}), {rejection}).replaced, ElementsAre(7)) << "where it was made";
+    const TracksToCorrect one = runOf({{11, drivenStates(11, 15, 65, 11.5)}});
+    const CorrectedTracks alone = corrected(one, {rejection});
+    EXPECT_EQ(alone.states.at(1), CorrectionState::alone);
+    EXPECT_TRUE(alone.empty());
+    EXPECT_TRUE(isLeft(CorrectionState::alone));
+    EXPECT_EQ(correctionsInWords(alone), "1 correction could not be carried over");
+    EXPECT_THAT(corrected(one, {rejectionOf(twin)}).replaced, ElementsAre(11)) << "nobody knows of another";
+    // Of two the nearer is meant again.
+    const auto two = runOf({{11, drivenStates(11, 15, 65, 11.5)}, {12, drivenStates(12, 3, 88, 9.5)}});
+    EXPECT_THAT(corrected(two, {rejection}).replaced, ElementsAre(11));
+    // What is not part of the result does not stand for the vehicle.
+    auto doubtful = drivenStates(12, 3, 88, 9.5);
+    for (TrackFrame& each : doubtful) each.state.status = TrackStatus::tentative;
+    const auto with_doubtful = runOf({{11, drivenStates(11, 15, 65, 11.5)}, {12, doubtful}});
+    EXPECT_EQ(corrected(with_doubtful, {rejection}).states.at(1), CorrectionState::alone);
+}
+
+TEST(CarriedCorrections, WhatLiesOnTheRejectedTrackAloneIsRejectedThoughTheVehicleIsNotFound) {
+    const auto kept = drivenStates(3, 0, 90, 10), shadow = drivenStates(7, 20, 60, 16);
+    const auto found = runOf({{11, drivenStates(11, 18, 62, 21)}});  // a length and more from the vehicle
+    EXPECT_THAT(corrected(found, {rejectionOf(shadow, kept)}).replaced, ElementsAre(11));
+}
+
 TEST(CarriedCorrections, AVehicleThatPassesWhereATrackWasRejectedStays) {
     const TrackCorrection rejection = rejectionOf(drivenStates(3, 0, 60, 100, 50, 0));
     const auto passing = corrected(runOf({{5, drivenStates(5, 0, 99, 0)}}), {rejection});

@@ -5,7 +5,11 @@
 
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <stdexcept>
+#include <stop_token>
 
+#include "core/error.h"
+#include "ground/look_reading.h"
 #include "ground/track_likeness.h"
 
 namespace eyrie::track_looks_test {
@@ -123,6 +127,67 @@ TEST(TrackLooks, WhatNoFrameShowsHasNone) {
         taker.look(frame);
     }
     EXPECT_THAT(taker.looks(), testing::ElementsAre(testing::Key(1))) << "the other one is out of the picture";
+}
+
+TEST(TrackLooks, PicturesThatCannotBeReadAreCountedAndTheOthersLookedAt) {
+    const std::vector<EventTrack> tracks{trackOver(1, 0, 100)};
+    const std::vector<FrameIndex> frames = LookTaker(tracks).frames();
+    ASSERT_EQ(frames.size(), 3U);
+    double share = 0;
+    const auto readWith = [&](const ReadPicture& picture) {
+        return readLooks(
+            tracks, [&] { return picture; }, [&](double done) { share = done; }, {});
+    };
+    const auto good = [](FrameIndex index) {
+        Frame frame;
+        frame.index = index;
+        frame.gray = cv::Mat(100, 200, CV_8UC1, cv::Scalar(90));
+        return frame;
+    };
+    const LooksRead all = readWith(good);
+    EXPECT_EQ(all.missing(), "");
+    EXPECT_EQ(all.looks.size(), 1U);
+    EXPECT_EQ(share, 1);
+    const LooksRead some = readWith([&](FrameIndex index) {
+        if (index == frames[1]) throw std::runtime_error("a hole in the tape");
+        return good(index);
+    });
+    EXPECT_EQ(some.missing(), "1 of 3 pictures could not be read: a hole in the tape");
+    EXPECT_EQ(some.looks.size(), 1U);
+    const LooksRead none = readLooks(
+        tracks, []() -> ReadPicture { throw std::runtime_error("no such tape"); }, [](double) {}, {});
+    EXPECT_EQ(none.missing(), "3 of 3 pictures could not be read: no such tape");
+    EXPECT_TRUE(none.looks.empty());
+    std::stop_source stop;
+    stop.request_stop();
+    EXPECT_TRUE(readLooks(
+                    tracks, [&] { return ReadPicture(good); }, [](double) {}, stop.get_token())
+                    .looks.empty());
+}
+
+TEST(LikenessChoice, IsNamedInWords) {
+    EXPECT_EQ(LikenessChoice::named({"looks", "path"}), (LikenessChoice{true, false, false, true}));
+    EXPECT_THAT(LikenessChoice().names(), testing::ElementsAre("path", "speed", "size"));
+    for (const LikenessChoice& each : {LikenessChoice{}, LikenessChoice{false, true, false, true}})
+        EXPECT_EQ(LikenessChoice::named(each.names()), each);
+    EXPECT_THROW(LikenessChoice::named({"path", "colour"}), Error);
+    EXPECT_THROW(LikenessChoice::named({}), Error) << "something has to count";
+}
+
+TEST(LikenessChoice, OrdersTheMostLikeFirstThenBySpeedAndSizeThenByNumber) {
+    std::vector<TrackLikeness> found{{.track = 2, .path = 0.5, .speed = 0.2, .size = 1},
+                                     {.track = 3, .path = 0.9, .speed = 0.1, .size = 1},
+                                     {.track = 4, .path = 0.5, .speed = 0.8, .size = 1},
+                                     {.track = 1, .path = 0.5, .speed = 0.2, .size = 1}};
+    const auto order = [&](const LikenessChoice& counts) {
+        orderBy(counts, found);
+        std::vector<TrackId> ids;
+        for (const TrackLikeness& each : found) ids.push_back(each.track);
+        return ids;
+    };
+    EXPECT_THAT(order({true, false, false, false}), testing::ElementsAre(3, 4, 1, 2));
+    EXPECT_EQ(found.front().likeness, 0.9);
+    EXPECT_THAT(order({false, true, false, false}), testing::ElementsAre(4, 1, 2, 3));
 }
 
 TEST(LikenessChoice, WhatCountsIsAGeometricMeanWithPathAndLooksTwice) {

@@ -75,6 +75,9 @@ TEST(TrackStory, FramesAroundAMomentAreSpreadEvenly) {
     EXPECT_EQ(chosen.back().frame, 150);
     EXPECT_EQ(chosenAround(story, 0, 2, 0.1, 50).size(), 3U);
     EXPECT_EQ(chosenAround(story, 999, 0, 0, 5).front().frame, 199);
+    const auto alone = chosenAround(story, 100, 2, 2, 1);
+    ASSERT_EQ(alone.size(), 1U);
+    EXPECT_EQ(alone.front().frame, 100);
     EXPECT_TRUE(chosenAround({}, 3, 1, 1, 5).empty());
     EXPECT_TRUE(chosenAround(story, 3, 1, 1, 0).empty());
 }

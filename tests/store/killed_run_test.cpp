@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/values/last_frame.h"
+#include "store/health/project_check.h"
 #include "store/runs/result_writer.h"
 #include "store/samples.h"
 #include "support/temporary_folder.h"
@@ -106,6 +107,21 @@ TEST(KilledRun, WithoutAPlannedEndEndsAtItsLastFrame) {
         EXPECT_EQ(run.last_frame, run.frames_done - 1);
         EXPECT_EQ(run.sequence.frame_count, run.frames_done);
     }
+}
+
+TEST(KilledRun, WithoutAPlannedEndAndBeforeItsFirstFrameHasNone) {
+    const test::TemporaryFolder folder;
+    const auto path = folder / "clip.eyrie";
+    ProjectFile::create(path);
+    // It goes without an end being written, as in a kill.
+    { const ResultWriter writer(path, runWithoutEnd(), {}); }
+    ProjectFile project = ProjectFile::open(path);
+    const RunRecord run = RunStore(project).runs().at(0);
+    EXPECT_EQ(run.frames_done, 0);
+    EXPECT_EQ(run.last_frame, run.first_frame - 1);
+    EXPECT_EQ(run.sequence.frame_count, 0);
+    EXPECT_EQ(stateNow(run), RunState::stopped);
+    EXPECT_TRUE(checkProject(path).healthy());
 }
 
 TEST(WorkingRun, WithoutAPlannedEndReachesAsFarAsItsFramesAtAnyMoment) {

@@ -62,6 +62,7 @@ void ProjectSession::takeLists(const ProjectLists& lists) {
     resumable_runs_ = lists.resumable;
     sequences_ = lists.sequences;
     starts_ = lists.starts;
+    control_ = lists.control;
 }
 
 std::optional<std::int64_t> ProjectSession::givenStart() const {
@@ -72,15 +73,25 @@ std::optional<std::int64_t> ProjectSession::givenStart() const {
     return std::nullopt;
 }
 
+std::vector<ControlPoint> ProjectSession::givenControl() const {
+    if (!media_) return {};
+    for (const SequenceRecord& sequence : sequences_)
+        if (sequence.path == media_->identity)
+            if (const auto found = control_.find(sequence.id); found != control_.end()) return found->second;
+    return {};
+}
+
 void ProjectSession::listsRead(const ProjectLists& lists) {
     if (!project_open_ || lists.project != project_) return;
     std::optional<RunRecord> before;
     if (current_run_)
         if (const RunRecord* run = findRun(*current_run_)) before = *run;
     const auto start_before = givenStart();
+    const auto control_before = givenControl();
     takeLists(lists);
     emit changed(SessionChange::runs);
     if (givenStart() != start_before) emit changed(SessionChange::start);
+    if (givenControl() != control_before) emit changed(SessionChange::control);
     if (!before) return;
     const RunRecord* now = findRun(before->id);
     if (now == nullptr || !hasGrown(*before, *now)) return;

@@ -28,6 +28,7 @@ enum class SessionChange {
     opened,   ///< video and project are open
     runs,     ///< the list of runs
     start,    ///< givenStart(), by whatever program
+    control,  ///< givenControl(), by whatever program
     current_run,
     run_data,  ///< the lists of the current run were read
     frame,     ///< currentFrame()
@@ -82,6 +83,8 @@ class ProjectSession : public QObject {
     const std::vector<std::int64_t>& timesUs() const { return times_us_; }
     /// When the video began, as a person said and the project kept it when it was read last: µs since 1970-01-01.
     std::optional<std::int64_t> givenStart() const;
+    /// Where it lies on the earth, as a person said and the project kept it when it was read last.
+    std::vector<ControlPoint> givenControl() const;
     /// For people: which of the files of a video in parts a frame lies in, and where; empty where it is one file.
     QString partText(FrameIndex frame) const;
     const std::filesystem::path& project() const { return project_; }
@@ -255,8 +258,9 @@ class ProjectSession : public QObject {
     std::optional<RunRecord> last_removed_run_;
     std::vector<int> resumable_runs_;
     std::vector<SequenceRecord> sequences_;
-    std::map<int, std::int64_t> starts_;     ///< ProjectLists::starts
-    std::optional<SequenceRecord> missing_;  ///< the video shown, if it cannot be found
+    std::map<int, std::int64_t> starts_;                ///< ProjectLists::starts
+    std::map<int, std::vector<ControlPoint>> control_;  ///< ProjectLists::control
+    std::optional<SequenceRecord> missing_;             ///< the video shown, if it cannot be found
     std::optional<int> current_run_;
     std::shared_ptr<const RunData> run_data_;
     bool corrected_ = true;

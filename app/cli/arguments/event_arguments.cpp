@@ -76,11 +76,11 @@ ReviewedRun EventArguments::read(const EventChoice& wanted) const {
     return readReviewedRun(file, record, wanted);
 }
 
-StoredTracks EventArguments::readTracksAlone() const {
+std::pair<RunRecord, StoredTracks> EventArguments::readTracksAlone() const {
     ProjectFile file = openForReading(project);
     const RunStore store(file);
     const RunRecord record = chosenRun(store, project, run);
-    return readTracks(store, record, uncorrected ? CorrectedTracks() : readCorrectedTracks(file, record));
+    return {record, readTracks(store, record, uncorrected ? CorrectedTracks() : readCorrectedTracks(file, record))};
 }
 
 void EventArguments::tellZones(const ReviewedRun& found) const {

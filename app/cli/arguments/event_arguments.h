@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "events/review/reviewed_run.h"
@@ -39,8 +40,8 @@ struct EventArguments {
     EventChoice choice() const;
     /// Throws Error(project | parameter).
     ReviewedRun read(const EventChoice& choice) const;
-    /// The tracks without their events. Throws Error(project).
-    StoredTracks readTracksAlone() const;
+    /// A run and its tracks, without their events. Throws Error(project).
+    std::pair<RunRecord, StoredTracks> readTracksAlone() const;
     /// Says on standard error which zones of the project were watched, where no file was given.
     void tellZones(const ReviewedRun& found) const;
 };

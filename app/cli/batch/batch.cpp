@@ -206,7 +206,7 @@ void Batch::lookAt(Work& work, const BatchRow& row) {
         if (!isFile(row.project)) return;
         ProjectFile file = ProjectFile::open(row.project, ProjectFile::Mode::read_only);
         const auto run = runOf(RunStore(file), row, options_.wishes);
-        if (run) work.share = run->frames_done / static_cast<double>(run->last_frame - run->first_frame + 1);
+        if (run) work.share = run->frames_done / std::max(1.0, run->last_frame - run->first_frame + 1.0);
     } catch (const Error&) {
         // It is only looked at for the time that is left.
     }

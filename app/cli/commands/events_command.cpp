@@ -5,14 +5,17 @@
 #include "cli/arguments/common_options.h"
 #include "cli/arguments/earlier_state.h"
 #include "cli/arguments/event_arguments.h"
+#include "cli/arguments/input.h"
 #include "cli/arguments/output_arguments.h"
 #include "cli/arguments/video_arguments.h"
 #include "cli/command.h"
 #include "cli/interrupt.h"
+#include "cli/reports/console_progress.h"
 #include "cli/reports/events/event_table.h"
 #include "cli/reports/events/likeness_table.h"
 #include "cli/reports/figure_text.h"
 #include "cli/run_clock.h"
+#include "ground/look_reading.h"
 
 namespace eyrie::cli {
 namespace {
@@ -20,6 +23,7 @@ namespace {
 struct ListArguments {
     EventArguments events;
     TrackId like = 0;
+    std::vector<std::string> like_by;
     std::string csv;
     std::string start;
     OutputArguments outputs;
@@ -97,18 +101,45 @@ void tellEvents(const ListArguments& arguments) {
     printCorrections(reviewed.tracks.corrections, reviewed.review);
 }
 
-/// Tracks like one: no events are looked for.
-void tellLikeTracks(const ListArguments& arguments) {
+/// Reads what the vehicles of a run look like, and says what of it could not be read.
+LooksByTrack looksIn(const RunRecord& run, const StoredTracks& stored, const std::stop_token& stop) {
+    const auto open = [&]() -> ReadPicture {
+        const std::shared_ptr<FrameSource> source = openInput(run.sequence.path, 0, stop, run.sequence.frame_rate_hz);
+        return [source](FrameIndex frame) { return source->read(frame, true); };
+    };
+    LooksRead read;
+    {
+        ConsoleProgress progress("% of the pictures");
+        read = readLooks(
+            stored.tracks, open, [&](double share) { progress.showShare(share); }, stop);
+    }
+    if (const std::string missing = read.missing(); !missing.empty() && !stop.stop_requested())
+        std::fprintf(stderr, "eyrie-cli: what vehicles look like does not count, or only in part: %s\n",
+                     missing.c_str());
+    return read.looks;
+}
+
+/// Tracks like one: no events are looked for. Answers the exit code.
+int tellLikeTracks(const ListArguments& arguments) {
+    const LikenessChoice counts =
+        arguments.like_by.empty() ? LikenessChoice() : LikenessChoice::named(arguments.like_by);
     const EventChoice choice = arguments.events.choice();
-    arguments.outputs.check({{arguments.csv, FileKind::text}}, {arguments.events.project});
-    const StoredTracks stored = arguments.events.readTracksAlone();
+    const auto [run, stored] = arguments.events.readTracksAlone();
+    arguments.outputs.check({{arguments.csv, FileKind::text}}, {arguments.events.project, run.sequence.path});
     if (!hasMetricLimits(stored.footage.scale))
         std::fprintf(stderr, "eyrie-cli: the scale is not known; distances are measured in vehicle lengths\n");
     tellUnregistered(stored);
     const GroundStretches ground(stored.footage);
-    const std::vector<TrackLikeness> found = tracksLike(stored, ground, arguments.like, choice.options);
+    std::vector<TrackLikeness> found = tracksLike(stored, ground, arguments.like, choice.options);
+    if (counts.looks) {
+        const InterruptGuard interrupt;
+        compareLooks(found, looksIn(run, stored, interrupt.token()), arguments.like);
+        if (interrupt.token().stop_requested()) return exit_stopped;
+    }
+    orderBy(counts, found);
     if (!arguments.csv.empty()) writeLikenessCsv(arguments.csv, found, stored);
-    printLikeness(arguments.like, found, stored);
+    printLikeness(arguments.like, found, stored, counts.looks);
+    return exit_ok;
 }
 
 }  // namespace
@@ -126,12 +157,23 @@ void addEventsCommand(CLI::App& app, int& exit_code) {
                 "--like", arguments->like,
                 "List the other tracks instead, by their likeness to this one, in path over the ground, speed and size")
             ->type_name("TRACK");
+    command
+        ->add_option("--like-by", arguments->like_by,
+                     "What of it counts: path, speed, size, looks (reads pictures of the video); default: the first "
+                     "three")
+        ->type_name("NAMES")
+        ->delimiter(',')
+        ->needs(like);
     for (const char* of_events : {"--kind", "--verdict", "--zone"}) like->excludes(command->get_option(of_events));
     command->add_option("--csv", arguments->csv, "Write what is listed as a table, too");
     like->excludes(addStart(*command, arguments->start));
     arguments->outputs.addTo(*command);
     command->callback([arguments, like, &exit_code] {
-        like->count() > 0 ? tellLikeTracks(*arguments) : tellEvents(*arguments);
+        if (like->count() > 0) {
+            exit_code = tellLikeTracks(*arguments);
+            return;
+        }
+        tellEvents(*arguments);
         exit_code = exit_ok;
     });
 }

@@ -45,22 +45,36 @@ struct ExportArguments {
     bool keep = false;
 };
 
-/// Writes and tells; `source` names the sequence where nobody did. The names of some files follow from what is
-/// exported, so that they are checked only now; nothing was written before. `stop`: a token, for labels frame by frame.
-template <class Labels, class... Stop>
-void writeAndTell(const ExportArguments& arguments, Labels&& labels, const LabelFile& about, const std::string& source,
-                  const Stop&... stop) {
+/// What a person stops ends as it does in every command; of what is stopped too late all is written. Answers the exit
+/// code. `write` gets the token of the stop.
+template <class Write>
+int untilStopped(const Write& write) {
+    const InterruptGuard interrupt;
+    try {
+        write(interrupt.token());
+    } catch (const Error& error) {
+        if (!interrupt.token().stop_requested()) throw;
+        std::fprintf(stderr, "eyrie-cli: %s\n", error.what());
+        return exit_stopped;
+    }
+    return exit_ok;
+}
+
+/// How to write what is `about`, of which `source` names the sequence where nobody did. The names of some files follow
+/// from it, so that they are checked only now; nothing was written before.
+ExportOptions checkedOptions(const ExportArguments& arguments, const LabelFile& about, const std::string& source) {
     ExportOptions options = arguments.options;
     if (arguments.clip) options.clip = true;
     if (arguments.keep) options.clip = false;
     if (options.sequence.empty()) options.sequence = std::filesystem::path(source).stem().string();
     if (options.sequence.empty()) options.sequence = "sequence";
-    const std::vector<std::string> notes = about.notes;
     std::vector<std::filesystem::path> inputs(about.further_files.begin(), about.further_files.end());
     inputs.insert(inputs.end(), {arguments.project, arguments.from});
     arguments.outputs.check(outputFiles(arguments.out, arguments.format, options), inputs);
-    const ExportReport report =
-        writeLabels(std::forward<Labels>(labels), arguments.out, arguments.format, options, stop...);
+    return options;
+}
+
+void tellExport(const ExportReport& report, const std::vector<std::string>& notes) {
     std::fputs(reportText(report).c_str(), stdout);
     for (const std::string& note : notes) std::printf("  note        %s\n", note.c_str());
 }
@@ -73,10 +87,13 @@ void exportFile(const ExportArguments& arguments) {
     if (!labels.image_size) labels.image_size = described.image_size;
     if (!labels.frame_count) labels.frame_count = described.frame_count;
     if (!labels.frame_rate_hz) labels.frame_rate_hz = described.frame_rate_hz;
-    writeAndTell(arguments, std::move(labels), labels, arguments.from);
+    const ExportOptions options = checkedOptions(arguments, labels, arguments.from);
+    const std::vector<std::string> notes = labels.notes;
+    tellExport(writeLabels(std::move(labels), arguments.out, arguments.format, options), notes);
 }
 
-void exportAnnotations(const ExportArguments& arguments, ProjectFile& project) {
+/// Answers the exit code.
+int exportAnnotations(const ExportArguments& arguments, ProjectFile& project) {
     const SequenceRecord sequence = chosenSequence(project, arguments.sequence);
     const AnnotationSet annotations = readAnnotations(project, sequence.id);
     if (annotations.objects.empty())
@@ -84,13 +101,17 @@ void exportAnnotations(const ExportArguments& arguments, ProjectFile& project) {
                                             " yet; without --labels the tracks of a run are exported");
     const CameraMotion camera = cameraMotionOf(RunStore(project), sequence.id);
     const LabelStream labels = labelStreamOf(annotations, sequence, camera);
-    writeAndTell(arguments, labels, labels.about, sequence.path);
+    const ExportOptions options = checkedOptions(arguments, labels.about, sequence.path);
+    return untilStopped([&](const std::stop_token& stop) {
+        tellExport(writeLabels(labels, arguments.out, arguments.format, options, stop), labels.about.notes);
+    });
 }
 
 /// Tracks of a run in a copy of its video.
 void exportVmti(const ExportArguments& arguments, const RunRecord& run, const LabelStream& labels,
                 const FrameSource& video, const std::stop_token& stop) {
     const VmtiReport report = writeVmti(labels, video, arguments.out, {}, stop);
+    if (stop.stop_requested()) throw Error(ErrorKind::output, arguments.out + ": stopped before it was written");
     std::printf("%s: a copy of %s with %d VMTI sets of %d targets\n", arguments.out.c_str(), run.sequence.path.c_str(),
                 report.frames, report.targets);
     for (const std::string& remark : remarksOn(report, labels.about.world->no_place))
@@ -98,7 +119,8 @@ void exportVmti(const ExportArguments& arguments, const RunRecord& run, const La
     for (const std::string& note : labels.about.notes) std::printf("  note        %s\n", note.c_str());
 }
 
-void exportRun(const ExportArguments& arguments, ProjectFile& project, const std::stop_token& stop) {
+/// Answers the exit code.
+int exportRun(const ExportArguments& arguments, ProjectFile& project) {
     const RunStore store(project);
     const RunRecord run = chosenRun(store, arguments.project, arguments.run);
     const bool own = arguments.detections || arguments.uncorrected;
@@ -107,10 +129,14 @@ void exportRun(const ExportArguments& arguments, ProjectFile& project, const std
     const bool as_video = arguments.format == kVmtiFormat;
     if (as_video) arguments.outputs.check({{arguments.out, FileKind::video}}, {run.sequence.path, arguments.project});
     LabelStream labels = arguments.detections ? labelStreamOf(store, run, true) : labelStreamOf(store, run, corrected);
-    const auto open = [&] { return openInput(run.sequence.path, 0, stop, run.sequence.frame_rate_hz); };
-    const auto video = addWorld(arguments.format, labels, project, run, open, startOf(arguments.start), stop);
-    if (as_video) return exportVmti(arguments, run, labels, *video, stop);
-    writeAndTell(arguments, labels, labels.about, run.sequence.path, stop);
+    const ExportOptions options =
+        as_video ? arguments.options : checkedOptions(arguments, labels.about, run.sequence.path);
+    return untilStopped([&](const std::stop_token& stop) {
+        const auto open = [&] { return openInput(run.sequence.path, 0, stop, run.sequence.frame_rate_hz); };
+        const auto video = addWorld(arguments.format, labels, project, run, open, startOf(arguments.start), stop);
+        if (as_video) return exportVmti(arguments, run, labels, *video, stop);
+        tellExport(writeLabels(labels, arguments.out, arguments.format, options, stop), labels.about.notes);
+    });
 }
 
 /// Answers the exit code.
@@ -126,19 +152,7 @@ int exportLabels(const ExportArguments& arguments) {
         return exit_ok;
     }
     ProjectFile project = openForReading(arguments.project);
-    if (arguments.labels) {
-        exportAnnotations(arguments, project);
-        return exit_ok;
-    }
-    const InterruptGuard interrupt;
-    try {
-        exportRun(arguments, project, interrupt.token());
-    } catch (const Error&) {
-        // Whatever it was at when it was stopped says so as an error.
-        if (interrupt.token().stop_requested()) return exit_stopped;
-        throw;
-    }
-    return exit_ok;
+    return arguments.labels ? exportAnnotations(arguments, project) : exportRun(arguments, project);
 }
 
 }  // namespace

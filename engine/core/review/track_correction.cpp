@@ -51,7 +51,9 @@ void checkCorrection(const TrackCorrection& correction) {
     if (correction.frame < 0 || correction.frame > kLastFrame) refuseCorrection(correction, "has an invalid frame");
     if (correction.track.empty() || !areSightings(correction.track) || !areSightings(correction.other))
         refuseCorrection(correction, "has invalid boxes");
-    if (correction.other.empty() != (correction.kind != CorrectionKind::join))
+    const bool may_name_another = correction.kind == CorrectionKind::join || correction.kind == CorrectionKind::reject;
+    if ((correction.other.empty() && correction.kind == CorrectionKind::join) ||
+        (!correction.other.empty() && !may_name_another))
         refuseCorrection(correction, "names the wrong number of tracks");
     const FrameIndex first = correction.track.front().frame;
     const FrameIndex last = correction.track.back().frame;

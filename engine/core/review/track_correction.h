@@ -36,9 +36,11 @@ struct TrackCorrection {
     FrameIndex frame = 0;
     /// add: the vehicle in all frames in which it is seen; else some by which the track is found. Ascending frames.
     std::vector<Sighting> track;
-    std::vector<Sighting> other;  ///< join: some of the other track; else none
-    std::string person;           ///< who made it
-    std::string when_utc;         ///< and when, ISO 8601
+    /// join: some of the other track; reject: some of the track that was kept of those on one vehicle, where there was
+    /// one; else none.
+    std::vector<Sighting> other;
+    std::string person;    ///< who made it
+    std::string when_utc;  ///< and when, ISO 8601
 
     bool operator==(const TrackCorrection&) const = default;
 };

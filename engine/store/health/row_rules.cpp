@@ -165,8 +165,9 @@ std::vector<RowRule> rowRules() {
          std::string("width") + kPixels + " AND height" + kPixels + " AND frame_count" + frames + " AND frame_rate_hz" +
              kRate + " AND " + areShort("path"),
          "size, length or frame rate of a video is impossible"},
-        {"run",
-         range + " AND gsd_m_per_px BETWEEN 1e-4 AND 1e4 AND frame_rate_hz" + kRate + " AND " +
+        {"run",  // without an end and without a frame yet it ends before its first one
+         "first_frame" + frames + " AND last_frame BETWEEN -1 AND " + std::to_string(kLastFrame) +
+             " AND gsd_m_per_px BETWEEN 1e-4 AND 1e4 AND frame_rate_hz" + kRate + " AND " +
              isOneOf("state", stored::kRunStates) + " AND " +
              areShort("name, started_utc, engine_version, preset, message"),
          "range, scale or state of a run is impossible"},

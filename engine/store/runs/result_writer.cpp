@@ -108,6 +108,10 @@ ResultWriter::ResultWriter(const std::filesystem::path& project, RunRecord run,
     implementation_->first = run.first_frame;
     implementation_->last = run.last_frame;
     implementation_->has_end = run.last_frame < kLastFrame;
+    if (!implementation_->has_end) {  // as storeEnd() says it of no frame
+        run.last_frame = run.first_frame - 1;
+        run.sequence.frame_count = run.first_frame;
+    }
     for (const RunRecord& earlier : RunStore(implementation_->project).runs()) {
         if (earlier.state == RunState::running) clearRunLock(path, earlier.id);
     }

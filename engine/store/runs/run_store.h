@@ -43,10 +43,10 @@ struct RunRecord {
     std::string engine_version;
     std::string preset;  ///< name of the preset it started from
     SceneScale scale;
-    ScaleBasis scale_basis;      ///< where `scale` comes from; stored as agreeing() with it
-    bool rate_assumed = false;   ///< the frame rate of `scale` is nobody's
-    FrameIndex first_frame = 0;  ///< planned range, inclusive
-    FrameIndex last_frame = 0;
+    ScaleBasis scale_basis;              ///< where `scale` comes from; stored as agreeing() with it
+    bool rate_assumed = false;           ///< the frame rate of `scale` is nobody's
+    FrameIndex first_frame = 0;          ///< planned range, inclusive
+    FrameIndex last_frame = 0;           ///< first_frame − 1: no frame of a run without a planned end is there yet
     int frames_done = 0;                 ///< whole frames in the file
     RunState state = RunState::running;  ///< as stored; a killed run is found as `running` and is not `live`
     bool live = false;                   ///< some program writes it at this moment

@@ -206,16 +206,29 @@ TEST_F(ReviewStoreTest, CorrectionsThatCannotBeAreRefusedAndChangeNothing) {
     };
     for (const int like : {3, 4}) {  // rejecting, adding
         refused(like, [](TrackCorrection& of_one) { of_one.track.clear(); });
-        refused(like, [](TrackCorrection& of_one) { of_one.other = of_one.track; });
         refused(like, [](TrackCorrection& of_one) { of_one.track[2].frame = of_one.track[1].frame; });
         refused(like, [](TrackCorrection& of_one) { of_one.track[1].box.length = 0; });
         refused(like, [](TrackCorrection& of_one) { of_one.track[1].box.heading = std::nan(""); });
         refused(like, [](TrackCorrection& of_one) { of_one.track[1].box.centre.x = 2e6; });
     }
+    for (const int like : {2, 4})  // splitting, adding
+        refused(like, [](TrackCorrection& of_one) { of_one.other = of_one.track; });
     refused(1, [](TrackCorrection& joining) { joining.other.clear(); });
     refused(2, [](TrackCorrection& splitting) { splitting.frame = splitting.track.front().frame; });
     refused(2, [](TrackCorrection& splitting) { splitting.frame = splitting.track.back().frame + 1; });
     refused(2, [](TrackCorrection& splitting) { splitting.id = 0; });
+}
+
+TEST_F(ReviewStoreTest, ARejectionKeepsTheTrackThatWasKeptBesideIt) {
+    ReviewEdit rejecting = test::sampleCorrecting(3);
+    TrackCorrection& made = *rejecting.corrections.front().after;
+    made.other = {{15, {{22.5, 30.5}, 12, 6, 0}}, {16, {{23.5, 30.5}, 12, 6, 0}}};
+    ReviewStore(project_, 1).apply(rejecting);
+    EXPECT_EQ(readReview(project_, 1).corrections.at(3), made);
+    for (const HealthItem& item : checkProject(path_).items) {
+        if (item.subject != "values") continue;
+        EXPECT_EQ(item.health, Health::good) << item.words;
+    }
 }
 
 TEST_F(ReviewStoreTest, BytesOfACorrectionThatNoWriterWroteAreNothing) {

@@ -512,6 +512,12 @@ class TrackFilterTest : public QObject {
         QCOMPARE(panel.countText(), QStringLiteral("10 of 10 tracks"));
         QCOMPARE(listed(panel).front(), 10);  // the order of before
         QVERIFY(panel.table()->isColumnHidden(TracksModel::like_column));
+
+        // What was ticked last counts for the next one, on the next day, too.
+        TracksPanel tomorrow(&model);
+        tomorrow.listLike(5);
+        QCOMPARE(tomorrow.chips().filter().like->counts, (LikenessChoice{false, false, false, true}));
+        QCOMPARE(tomorrow.chips().filter().like->track, TrackId(5));
     }
 
     void likenessToAnotherTrackCountsForNothing() {

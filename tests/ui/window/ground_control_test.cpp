@@ -221,6 +221,26 @@ class GroundControlTest : public QObject {
         QCOMPARE(control(*window).points()[0].frame, 5);
     }
 
+    void whatAnotherProgramSaysIsFollowedWithoutTouchingAnything() {
+        const auto window = test::windowWithRun();
+        QVERIFY(window);
+        set(*window, {50, 50});
+        QVERIFY(isStored(*window, 1));
+        QVERIFY(control(*window).panel().undoButton()->isEnabled());
+        const int video = window->session().shownRun()->sequence.id;
+        ProjectFile project = ProjectFile::open(window->session().project());
+        std::vector<ControlPoint> others;
+        for (const QPointF& px : kCorners)
+            others.push_back({7, {px.x(), px.y()}, test::flownPlace(7, {px.x(), px.y()})});
+        replaceControlPoints(project, video, others);
+        QTRY_COMPARE_WITH_TIMEOUT(control(*window).points(), others, kPatience_ms);
+        QTRY_VERIFY_WITH_TIMEOUT(metresOff(*window, 7, {100, 90}) < 0.5, kPatience_ms);
+        QVERIFY2(!control(*window).panel().undoButton()->isEnabled(), "nothing of theirs is taken back");
+        replaceControlPoints(project, video, {});
+        QTRY_VERIFY_WITH_TIMEOUT(control(*window).points().empty(), kPatience_ms);
+        QVERIFY(says(*window, QStringLiteral("at least four places")));
+    }
+
     void labellingTakesTheCanvas() {
         const auto window = test::windowWithRun();
         QVERIFY(window);

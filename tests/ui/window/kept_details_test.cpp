@@ -66,6 +66,22 @@ class KeptDetailsTest : public QObject {
         QCOMPARE(keptByARun(window.session()), 30);
         QVERIFY(stores(window.session(), "all"));
     }
+
+    void theChoiceIsThatOfTheDayBefore() {
+        const auto boxOf = [](MainWindow& window) {
+            return window.findChild<QComboBox*>(QStringLiteral("kept_details"));
+        };
+        {
+            MainWindow window;
+            QVERIFY(test::openAndWait(window.session(), test::sceneUnderTest(30)));
+            choose(*boxOf(window), KeptDetails::none);
+        }
+        MainWindow window;
+        QCOMPARE(boxOf(window)->currentData().toInt(), static_cast<int>(KeptDetails::none));
+        QCOMPARE(window.session().settings().recording.details, KeptDetails::none);
+        QVERIFY(test::openAndWait(window.session(), test::sceneUnderTest(30)));
+        QCOMPARE(window.session().settings().recording.details, KeptDetails::none);
+    }
 };
 
 }  // namespace eyrie::ui::kept_details_test

@@ -1,4 +1,5 @@
 #include <QAction>
+#include <QLayout>
 #include <QLineEdit>
 #include <QPushButton>
 #include <QSignalSpy>
@@ -9,6 +10,8 @@
 #include "review/events/event_thresholds.h"
 #include "review/events/events_dock.h"
 #include "review/events/events_panel.h"
+#include "store/project/project_file.h"
+#include "store/review/review_store.h"
 #include "ui/session/session_support.h"
 #include "ui/support/live_film.h"
 #include "ui/support/ui_test.h"
@@ -196,6 +199,29 @@ class LiveWindowTest : public QObject {
         QVERIFY(!review.asOf());
         QVERIFY(panel.headerText().contains(QStringLiteral("judged")));
         QVERIFY(!panel.headerText().contains(QStringLiteral("As of")));
+    }
+
+    void zonesThatTheProjectHasAreWatchedMeanwhile() {
+        const test::LiveSource source(*home_ / "");
+        const LiveSender sender(source.port, {{test::writeFilm(*home_ / "film.ts", 600), 24, 0.3}});
+        MainWindow window;
+        QVERIFY(watches(window, source));
+        QVERIFY(waitFor([&] { return window.session().ownRun() != nullptr; }));
+        {
+            ProjectFile project = ProjectFile::open(source.request.project);
+            ReviewStore store(project, window.session().ownRun()->sequence.id);
+            StoredZone zone;
+            zone.id = store.newZoneId();
+            zone.zone = {"all", ZoneShape::area, ZoneAnchor::image, 0, {{0, 0}, {9000, 0}, {9000, 9000}, {0, 9000}}};
+            store.apply({"Add", {}, {}, {{std::nullopt, zone}}});
+        }
+        window.docks().raise(DockId::events);
+        const EventReview& review = window.events().review();
+        QVERIFY(waitFor([&] { return review.asOf() && review.found()->zones.size() == 1; }));
+        QVERIFY(window.session().running());
+        QCOMPARE(QString::fromStdString(review.found()->zones.front().name), QStringLiteral("all"));
+        QVERIFY(press(window.liveStrip(), QStringLiteral("Stop watching")));
+        QVERIFY(waitFor([&] { return review.state() == EventReview::State::found; }));
     }
 
     void closingTheWindowAsksAndKeepsAll() {

@@ -65,6 +65,13 @@ struct TrackCorrecting::Trial {
                                                   "tracks of the result are joined, split and rejected");
         return states;
     }
+
+    /// With the track that is kept of those on the same vehicle; those of `but` are not kept either.
+    TrackCorrection rejectionOf(TrackId track, const std::set<TrackId>& but) const {
+        const std::vector<TrackFrame> states = statesOf(track);
+        const TrackCorrection alone = eyrie::rejectionOf(states);
+        return eyrie::rejectionOf(states, trackBeside(store, run.id, alone, but, corrected));
+    }
 };
 
 TrackCorrecting::TrackCorrecting(const CorrectingParts& parts, QObject* parent)
@@ -309,7 +316,8 @@ void TrackCorrecting::reject() {
         return warn(tr("None of the selected tracks is part of the result, so there is nothing to reject."));
     const auto make = [tracks](const Trial& trial) {
         std::vector<TrackCorrection> rejections;
-        for (const TrackId track : tracks) rejections.push_back(rejectionOf(trial.statesOf(track)));
+        const std::set<TrackId> none_kept(tracks.begin(), tracks.end());
+        for (const TrackId track : tracks) rejections.push_back(trial.rejectionOf(track, none_kept));
         return rejections;
     };
     const auto kept = [this, tracks](const Tried& tried) {

@@ -115,13 +115,21 @@ void GroundControl::forget() {
     undo_.clear();
     redo_.clear();
     points_.clear();
+    outdated_.reset();
     tool_->end();
     enableActions();
     showPoints();
 }
 
 void GroundControl::adoptStored() {
-    if (writing_ == 0) points_ = parts_.earth.control();
+    const std::vector<ControlPoint>& known = parts_.earth.control();
+    if (outdated_ != known) outdated_.reset();
+    if (writing_ == 0 && !outdated_ && points_ != known) {
+        points_ = known;
+        // Another program's version is not what the steps lead back from.
+        undo_.clear();
+        redo_.clear();
+    }
     showPoints();
 }
 
@@ -206,7 +214,10 @@ void GroundControl::store(std::vector<ControlPoint> after) {
     showPoints();
     const auto settle = [this, project = parts_.session.project()](const QString& problem) {
         --writing_;
-        if (!problem.isEmpty()) {
+        outdated_.reset();
+        if (problem.isEmpty()) {
+            outdated_ = parts_.earth.control();
+        } else {
             undo_.clear();
             redo_.clear();
             parts_.messages.showTopic(kControlTopic, MessageKind::error, problem);

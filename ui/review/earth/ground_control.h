@@ -81,7 +81,9 @@ class GroundControl : public QObject {
     std::vector<ControlPoint> points_;
     std::vector<std::vector<ControlPoint>> undo_, redo_;  ///< the newest last
     int writing_ = 0;                                     ///< changes that are not stored yet
-    BackgroundQuery query_;                               ///< last: stops before the rest goes
+    /// What the earth knew when our last change was stored, until it has read that.
+    std::optional<std::vector<ControlPoint>> outdated_;
+    BackgroundQuery query_;  ///< last: stops before the rest goes
 };
 
 }  // namespace eyrie::ui

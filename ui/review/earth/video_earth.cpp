@@ -45,9 +45,10 @@ VideoEarth::VideoEarth(ProjectSession& session, QObject* parent) : QObject(paren
     followSession(session_, this,
                   {{SessionChange::video, [this] { readMetadata(); }},
                    {{SessionChange::project, SessionChange::opened}, [this] { layOnEarth(); }},
-                   {SessionChange::start, [this] {
+                   {{SessionChange::start, SessionChange::control}, [this] {
                         // What this window said itself is known already.
-                        if (session_.givenStart() != given_start_us_) layOnEarth();
+                        if (session_.givenStart() != given_start_us_ || session_.givenControl() != control_)
+                            layOnEarth();
                     }}});
 }
 

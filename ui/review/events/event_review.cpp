@@ -203,8 +203,9 @@ void EventReview::searchSoFar() {
             const Snapshot unchanging(project);  // frames and tracks of the same moment
             return std::make_shared<const StoredTracks>(readTracks(RunStore(project), run));
         }();
+        const std::vector<Zone> zones = zonesOf(readReview(project, run.sequence.id).zones);
         if (task.stop().stop_requested()) return;
-        const auto found = findAndOrder(tracks, options, {});
+        const auto found = findAndOrder(tracks, options, {}, zones);
         const double seconds = std::chrono::duration<double>(LookClock::now() - begin).count();
         task.tell([this, found, run_id = run.id, seconds] { adoptSoFar(found, run_id, seconds); });
     };

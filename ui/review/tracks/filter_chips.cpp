@@ -16,6 +16,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "core/error.h"
 #include "widgets/layout/flow_layout.h"
 #include "widgets/wiring.h"
 
@@ -24,6 +25,25 @@ namespace eyrie::ui {
 namespace {
 
 const QString kKeptFilters = QStringLiteral("review/track_filters");
+const QString kLikeCounts = QStringLiteral("review/like_counts");
+
+/// What counted when a person ticked it last.
+LikenessChoice keptCounts() {
+    std::vector<std::string> names;
+    for (const QString& name : QSettings().value(kLikeCounts).toStringList()) names.push_back(name.toStdString());
+    if (names.empty()) return {};
+    try {
+        return LikenessChoice::named(names);
+    } catch (const Error&) {
+        return {};  // of another version
+    }
+}
+
+void keepCounts(const LikenessChoice& counts) {
+    QStringList names;
+    for (const std::string& name : counts.names()) names << QString::fromStdString(name);
+    QSettings().setValue(kLikeCounts, names);
+}
 
 std::array<TrackQuality, kTrackQualities> allQualities() {
     std::array<TrackQuality, kTrackQualities> all{};
@@ -97,7 +117,7 @@ void FilterChips::setLike(std::optional<TrackId> track) {
         if (!track)
             filter.like.reset();
         else if (!filter.like || filter.like->track != *track)
-            filter.like = LikeLimit{.track = *track};
+            filter.like = LikeLimit{.track = *track, .counts = keptCounts()};
     });
 }
 
@@ -327,8 +347,10 @@ void FilterChips::addLikeSwitches(QVBoxLayout& rows) {
                                      wanted.*counts = on;
                                      if (wanted.any()) filter.like->counts = wanted;
                                  });
+                                 if (!filter_.like) return;
                                  // Something has to count.
-                                 if (filter_.like) box->setChecked(filter_.like->counts.*counts);
+                                 box->setChecked(filter_.like->counts.*counts);
+                                 keepCounts(filter_.like->counts);
                              }}});
         rows.addWidget(box);
     }

@@ -1,8 +1,8 @@
 #include "review/tracks/like_tracks.h"
 
-#include <exception>
 #include <utility>
 
+#include "ground/look_reading.h"
 #include "ground/track_likeness.h"
 #include "review/tracks/filter_chips.h"
 #include "review/tracks/tracks_panel.h"
@@ -18,45 +18,20 @@ namespace {
 
 const QString kLikeTopic = QStringLiteral("tracks like one");
 
-/// What reading the pictures of tracks yields.
-struct PicturesSeen {
-    std::shared_ptr<const LooksByTrack> looks;
-    QString missing;  ///< why pictures could not be read; empty: all could
-};
-
-/// Looks at all tracks; `tell` gets the share done.
+/// Looks at all tracks; `tell` gets the per cent done when they are others.
 template <class Tell>
-PicturesSeen lookAt(const RunGround& ground, const Media& media, const std::stop_token& stop, const Tell& tell) {
-    LookTaker taker(ground.run->tracks);
-    PicturesSeen seen;
-    const std::vector<FrameIndex> frames = taker.frames();
-    std::size_t unread = 0;
-    std::string why;
+LooksRead lookAt(const RunGround& ground, const Media& media, const std::stop_token& stop, const Tell& tell) {
+    const auto open = [&]() -> ReadPicture {
+        const std::shared_ptr<FrameSource> source = media.open({}, stop);
+        return [source](FrameIndex frame) { return source->read(frame, true); };
+    };
     tell(0);  // a video that is opened for the first time is indexed
-    try {
-        const auto source = media.open({}, stop);
-        int percent = 0;
-        for (std::size_t i = 0; i < frames.size() && !stop.stop_requested(); ++i) {
-            try {
-                taker.look(source->read(frames[i], true));
-            } catch (const std::exception& error) {
-                ++unread;
-                why = error.what();
-            }
-            const int done = static_cast<int>(100 * (i + 1) / frames.size());
-            if (std::exchange(percent, done) < done) tell(done);
-        }
-    } catch (const std::exception& error) {
-        unread = frames.size();
-        why = error.what();
-    }
-    if (unread > 0)
-        seen.missing = LikeTracks::tr("%1 of %2 pictures could not be read: %3")
-                           .arg(unread)
-                           .arg(frames.size())
-                           .arg(QString::fromStdString(why));
-    seen.looks = std::make_shared<const LooksByTrack>(taker.looks());
-    return seen;
+    int percent = 0;
+    const auto tell_percent = [&](double share) {
+        const int done = static_cast<int>(100 * share);
+        if (std::exchange(percent, done) < done) tell(done);
+    };
+    return readLooks(ground.run->tracks, open, tell_percent, stop);
 }
 
 }  // namespace
@@ -108,14 +83,15 @@ void LikeTracks::search() {
         if (known) compareLooks(found, *known, track);
         task.tell([this, track, found, counts] { take(track, found, counts); });
         if (!counts.looks || known || !media) return;
-        const PicturesSeen seen = lookAt(*ground, *media, task.stop(), [&](int percent) {
+        const LooksRead seen = lookAt(*ground, *media, task.stop(), [&](int percent) {
             task.tell(
                 [this, percent] { parts_.panel.chips().setLikeWaiting(tr("looking at pictures, %1 %").arg(percent)); });
         });
         if (task.stop().stop_requested()) return;
-        compareLooks(found, *seen.looks, track);
-        task.tell([this, track, found, counts, seen] {
-            takeLooks(seen.looks, seen.missing);
+        compareLooks(found, seen.looks, track);
+        task.tell([this, track, found, counts, looks = std::make_shared<const LooksByTrack>(seen.looks),
+                   missing = QString::fromStdString(seen.missing())] {
+            takeLooks(looks, missing);
             take(track, found, counts);
         });
     };

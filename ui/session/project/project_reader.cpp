@@ -14,6 +14,7 @@
 #include "store/labels/annotation_store.h"
 #include "store/project/project_file.h"
 #include "store/project/video_start.h"
+#include "store/review/control_points.h"
 #include "store/review/review_store.h"
 #include "store/runs/doubtful_tracks.h"
 
@@ -188,20 +189,21 @@ class ProjectReader::Worker {
 
     ProjectLists lists() {
         const RunStore store(*project_);
-        ProjectLists lists{project_->path(), store.runs(), store.lastRemoved(), {}, sequencesOf(*project_), {}, {}};
-        readStarts(lists);
+        ProjectLists lists{project_->path(), store.runs(), store.lastRemoved(), {}, sequencesOf(*project_), {}, {}, {}};
+        for (const SequenceRecord& sequence : lists.sequences) readSaid(sequence.id, lists);
         for (const RunRecord& run : resumableRuns(store)) lists.resumable.push_back(run.id);
         any_running_ = std::any_of(lists.runs.begin(), lists.runs.end(), [](const RunRecord& run) { return run.live; });
         return lists;
     }
 
-    void readStarts(ProjectLists& lists) {
-        for (const SequenceRecord& sequence : lists.sequences) {
-            try {
-                if (const auto start_us = videoStartOf(*project_, sequence.id)) lists.starts[sequence.id] = *start_us;
-            } catch (const Error&) {
-                // A start that cannot be read is none; the rest of the project can be shown.
-            }
+    /// When and where a video was taken, as a person said.
+    void readSaid(int sequence_id, ProjectLists& lists) {
+        try {
+            if (const auto start_us = videoStartOf(*project_, sequence_id)) lists.starts[sequence_id] = *start_us;
+            std::vector<ControlPoint> points = readControlPoints(*project_, sequence_id);
+            if (!points.empty()) lists.control[sequence_id] = std::move(points);
+        } catch (const Error&) {
+            // What cannot be read was not said; the rest of the project can be shown.
         }
     }
 

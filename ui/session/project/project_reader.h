@@ -6,7 +6,9 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <vector>
 
+#include "core/geometry/control_point.h"
 #include "io/video/frame_source.h"
 #include "session/background/background_query.h"
 #include "session/project/corrected_tracks_memo.h"
@@ -22,7 +24,8 @@ struct ProjectLists {
     std::vector<int> resumable;             ///< runs that ended early and can be gone on with
     std::vector<SequenceRecord> sequences;  ///< videos, ascending ids
     std::map<int, std::int64_t> starts;     ///< by id of those of which a person said when they began: µs since 1970
-    std::string notice;                     ///< for people, when it was opened; else empty
+    std::map<int, std::vector<ControlPoint>> control;  ///< by id of those that a person laid on the earth
+    std::string notice;                                ///< for people, when it was opened; else empty
 };
 
 /// Reads and edits the lists of a project in the background, one after the other. Signals arrive on the thread of this

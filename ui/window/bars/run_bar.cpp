@@ -5,6 +5,7 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
+#include <QSettings>
 #include <QSpinBox>
 #include <QToolButton>
 #include <cmath>
@@ -23,6 +24,7 @@ namespace {
 /// What messages are about a GSD that cannot be used.
 const QString kGsdTopic = QStringLiteral("gsd");
 const QString kRateTopic = QStringLiteral("frame rate");
+const QString kKeptSetting = QStringLiteral("window/kept_details");
 
 QToolButton* toolButtonOf(QAction* action, QWidget* parent) {
     auto* button = new QToolButton(parent);
@@ -119,7 +121,9 @@ RunBar::RunBar(ProjectSession& session, const WindowActions& actions, MessageBar
 }
 
 void RunBar::makeDetails() {
-    const RecordingOptions& kept = session_.settings().recording;
+    RecordingOptions& kept = session_.settings().recording;
+    const std::string kept_last = QSettings().value(kKeptSetting).toString().toStdString();
+    if (!kept_last.empty()) kept.details = RecordingOptions::among({{"recording.details", kept_last}}).details;
     details_ = new QComboBox(this);
     details_->setObjectName(QStringLiteral("kept_details"));
     details_->setAccessibleName(tr("What the run keeps beside its tracks"));
@@ -143,6 +147,8 @@ void RunBar::makeDetails() {
     bindCommands(this, {{details_, [this] {
                              session_.settings().recording.details =
                                  static_cast<KeptDetails>(details_->currentData().toInt());
+                             QSettings().setValue(kKeptSetting,
+                                                  QString::fromUtf8(nameOf(session_.settings().recording.details)));
                              emit editingDone();
                          }}});
 }
