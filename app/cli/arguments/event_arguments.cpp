@@ -3,9 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "cli/arguments/common_options.h"
 #include "cli/arguments/earlier_state.h"
 #include "cli/arguments/preset_arguments.h"
+#include "cli/common_options.h"
 #include "cli/project_runs.h"
 #include "core/error.h"
 #include "correction/corrected_run.h"

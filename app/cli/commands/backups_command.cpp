@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "cli/arguments/common_options.h"
 #include "cli/command.h"
+#include "cli/common_options.h"
 #include "cli/interrupt.h"
 #include "cli/reports/console_progress.h"
 #include "core/error.h"

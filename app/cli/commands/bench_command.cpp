@@ -11,11 +11,11 @@
 #include <opencv2/video/tracking.hpp>
 
 #include "chain/chain.h"
-#include "cli/arguments/common_options.h"
 #include "cli/arguments/input.h"
 #include "cli/arguments/preset_arguments.h"
 #include "cli/arguments/video_arguments.h"
 #include "cli/command.h"
+#include "cli/common_options.h"
 #include "cli/reports/console_progress.h"
 #include "cli/reports/method_times.h"
 #include "cli/reports/preview_times.h"

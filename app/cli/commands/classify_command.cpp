@@ -3,9 +3,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "cli/arguments/common_options.h"
 #include "cli/arguments/output_arguments.h"
 #include "cli/command.h"
+#include "cli/common_options.h"
 #include "cli/reports/classification_report.h"
 
 namespace eyrie::cli {

@@ -4,13 +4,13 @@
 #include <memory>
 #include <optional>
 
-#include "cli/arguments/common_options.h"
 #include "cli/arguments/earlier_state.h"
 #include "cli/arguments/event_arguments.h"
 #include "cli/arguments/input.h"
 #include "cli/arguments/output_arguments.h"
 #include "cli/arguments/video_arguments.h"
 #include "cli/command.h"
+#include "cli/common_options.h"
 #include "cli/interrupt.h"
 #include "cli/project_runs.h"
 #include "cli/reports/console_progress.h"

@@ -5,7 +5,6 @@
 #include <memory>
 
 #include "chain/scale_estimation.h"
-#include "cli/arguments/common_options.h"
 #include "cli/arguments/earlier_state.h"
 #include "cli/arguments/evaluation_arguments.h"
 #include "cli/arguments/input.h"
@@ -13,6 +12,7 @@
 #include "cli/arguments/preset_arguments.h"
 #include "cli/arguments/video_arguments.h"
 #include "cli/command.h"
+#include "cli/common_options.h"
 #include "cli/interrupt.h"
 #include "cli/reports/comparison_report.h"
 #include "cli/reports/console_progress.h"

@@ -3,12 +3,12 @@
 #include <cstdio>
 #include <memory>
 
-#include "cli/arguments/common_options.h"
 #include "cli/arguments/described_sequence.h"
 #include "cli/arguments/earlier_state.h"
 #include "cli/arguments/evaluation_arguments.h"
 #include "cli/arguments/output_arguments.h"
 #include "cli/command.h"
+#include "cli/common_options.h"
 #include "cli/project_runs.h"
 #include "cli/reports/evaluation_text.h"
 #include "cli/reports/score_curve_csv.h"

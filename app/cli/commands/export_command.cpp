@@ -3,7 +3,6 @@
 #include <memory>
 #include <utility>
 
-#include "cli/arguments/common_options.h"
 #include "cli/arguments/described_sequence.h"
 #include "cli/arguments/earlier_state.h"
 #include "cli/arguments/event_arguments.h"
@@ -12,6 +11,7 @@
 #include "cli/arguments/output_arguments.h"
 #include "cli/arguments/video_arguments.h"
 #include "cli/command.h"
+#include "cli/common_options.h"
 #include "cli/interrupt.h"
 #include "cli/labels_of_project.h"
 #include "cli/project_runs.h"

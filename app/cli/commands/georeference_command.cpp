@@ -4,9 +4,9 @@
 #include <memory>
 #include <optional>
 
-#include "cli/arguments/common_options.h"
 #include "cli/arguments/earlier_state.h"
 #include "cli/command.h"
+#include "cli/common_options.h"
 #include "cli/interrupt.h"
 #include "cli/labels_of_project.h"
 #include "core/error.h"

@@ -4,12 +4,12 @@
 #include <optional>
 #include <utility>
 
-#include "cli/arguments/common_options.h"
 #include "cli/arguments/earlier_state.h"
 #include "cli/arguments/input.h"
 #include "cli/arguments/label_arguments.h"
 #include "cli/arguments/output_arguments.h"
 #include "cli/command.h"
+#include "cli/common_options.h"
 #include "cli/labels_of_project.h"
 #include "core/error.h"
 #include "exchange/label_import.h"

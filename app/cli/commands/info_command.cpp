@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "cli/arguments/common_options.h"
 #include "cli/arguments/earlier_state.h"
 #include "cli/arguments/input.h"
 #include "cli/arguments/output_arguments.h"
 #include "cli/command.h"
+#include "cli/common_options.h"
 #include "cli/interrupt.h"
 #include "core/error.h"
 #include "core/utc_time.h"

@@ -3,9 +3,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "cli/arguments/common_options.h"
 #include "cli/arguments/preset_arguments.h"
 #include "cli/command.h"
+#include "cli/common_options.h"
 #include "events/event_options.h"
 #include "events/review/review_options.h"
 #include "peer/peer_options.h"

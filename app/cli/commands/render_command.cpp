@@ -8,9 +8,9 @@
 #include <optional>
 #include <vector>
 
-#include "cli/arguments/common_options.h"
 #include "cli/arguments/output_arguments.h"
 #include "cli/command.h"
+#include "cli/common_options.h"
 #include "cli/interrupt.h"
 #include "cli/reports/console_progress.h"
 #include "core/error.h"

@@ -2,7 +2,6 @@
 #include <cstdio>
 #include <memory>
 
-#include "cli/arguments/common_options.h"
 #include "cli/arguments/earlier_state.h"
 #include "cli/arguments/evaluation_arguments.h"
 #include "cli/arguments/event_arguments.h"
@@ -10,6 +9,7 @@
 #include "cli/arguments/output_arguments.h"
 #include "cli/arguments/video_arguments.h"
 #include "cli/command.h"
+#include "cli/common_options.h"
 #include "cli/interrupt.h"
 #include "cli/project_runs.h"
 #include "cli/reports/console_progress.h"

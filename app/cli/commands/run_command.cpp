@@ -8,7 +8,6 @@
 
 #include "chain/recording/run_resume.h"
 #include "chain/scale_estimation.h"
-#include "cli/arguments/common_options.h"
 #include "cli/arguments/earlier_state.h"
 #include "cli/arguments/input.h"
 #include "cli/arguments/output_arguments.h"
@@ -16,6 +15,7 @@
 #include "cli/arguments/run_choice.h"
 #include "cli/arguments/video_arguments.h"
 #include "cli/command.h"
+#include "cli/common_options.h"
 #include "cli/interrupt.h"
 #include "cli/live/live_command.h"
 #include "cli/reports/console_progress.h"

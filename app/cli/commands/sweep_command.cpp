@@ -5,12 +5,12 @@
 #include <memory>
 
 #include "chain/recording/run_recorder.h"
-#include "cli/arguments/common_options.h"
 #include "cli/arguments/earlier_state.h"
 #include "cli/arguments/output_arguments.h"
 #include "cli/arguments/preset_arguments.h"
 #include "cli/arguments/sweep_arguments.h"
 #include "cli/command.h"
+#include "cli/common_options.h"
 #include "cli/interrupt.h"
 #include "cli/project_runs.h"
 #include "cli/reports/console_progress.h"

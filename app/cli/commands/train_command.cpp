@@ -6,10 +6,10 @@
 #include <memory>
 #include <optional>
 
-#include "cli/arguments/common_options.h"
 #include "cli/arguments/output_arguments.h"
 #include "cli/arguments/sample_sources.h"
 #include "cli/command.h"
+#include "cli/common_options.h"
 #include "cli/interrupt.h"
 #include "cli/reports/console_progress.h"
 #include "core/error.h"

@@ -7,12 +7,12 @@
 #include "ui/support/ui_test.h"
 #include "window/main_window.h"
 
-namespace eyrie::ui::kept_details_test {
+namespace eyrie::ui::keep_choice_test {
 
 using test::kPatience_ms;
 
 /// What a run keeps beside its tracks, as it is chosen beside Run.
-class KeptDetailsTest : public QObject {
+class KeepChoiceTest : public QObject {
     Q_OBJECT
 
     std::unique_ptr<test::OwnHome> home_;
@@ -84,7 +84,7 @@ class KeptDetailsTest : public QObject {
     }
 };
 
-}  // namespace eyrie::ui::kept_details_test
+}  // namespace eyrie::ui::keep_choice_test
 
-EYRIE_UI_TEST(QApplication, kept_details_test, KeptDetailsTest)
-#include "kept_details_test.moc"
+EYRIE_UI_TEST(QApplication, keep_choice_test, KeepChoiceTest)
+#include "keep_choice_test.moc"

@@ -1,4 +1,4 @@
-#include "cli/arguments/common_options.h"
+#include "cli/common_options.h"
 
 #include <CLI/CLI.hpp>
 
