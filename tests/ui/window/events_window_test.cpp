@@ -102,7 +102,7 @@ class EventsWindowTest : public QObject {
         }
         MainWindow window;
         QVERIFY(!window.timeline().kindsShown());
-        window.actions().event_rows->trigger();
+        window.actions().event_rows->setChecked(true);
         QVERIFY(window.timeline().kindsShown());
     }
 
