@@ -182,6 +182,18 @@ TEST_F(Batches, goesOnAfterAKill) {
         EXPECT_TRUE(isFinished(project)) << project;
 }
 
+TEST_F(Batches, aSecondOneOnTheSameResultsIsRefused) {
+    for (const char* name : {"in/a.mp4", "in/b.mp4"}) put(name);
+    test::Process process(command("batch", {"--jobs", "1"}));
+    test::waitUntil("a run has begun", [&] { return !runsOf("out/a.eyrie").empty(); });
+    const auto second = batch({"--jobs", "1"});
+    EXPECT_EQ(second.exit_code, 4);
+    EXPECT_THAT(second.errors, HasSubstr("another batch, process " + std::to_string(process.pid())));
+    EXPECT_EQ(process.wait().exit_code, 0);
+    EXPECT_EQ(runsOf("out/a.eyrie").size(), 1U);
+    EXPECT_EQ(batch().exit_code, 0);  // the first one's lock is gone
+}
+
 TEST_F(Batches, stopsWhenAskedAndSaysSo) {
     for (const char* name : {"in/a.mp4", "in/b.mp4"}) put(name);
     test::Process process(command("batch", {"--jobs", "1"}));
@@ -263,6 +275,8 @@ TEST_F(Batches, textThatIsCalledAVideoIsListedWithTheReason) {
     EXPECT_NE(result.exit_code, 0);
     EXPECT_THAT(inState("failed", "out/batch.csv"), ElementsAre("bad.mp4"));
     EXPECT_THAT(inState("done", "out/batch.csv"), ElementsAre("a.mp4"));
+    // What to do with labels is no help with a video that is none.
+    EXPECT_THAT(result.output, HasSubstr("copy or record the video again"));
 }
 
 TEST_F(Batches, aFileIsTakenOnceItHasArrived) {
@@ -314,6 +328,7 @@ TEST_F(Batches, whatCannotBeIsRefusedBeforeTheWork) {
         const auto result = batch({"--shard", shard});
         EXPECT_EQ(result.exit_code, 2) << shard;
         EXPECT_THAT(result.errors, HasSubstr("2/8"));
+        EXPECT_THAT(result.errors, HasSubstr("SLURM_ARRAY_TASK_COUNT"));
     }
     EXPECT_EQ(batch({"--gsd", "-1"}).exit_code, 2);
     EXPECT_EQ(test::runProcess({test::programPath("eyrie-cli"), "batch", at("absent"), "--out", at("out")}).exit_code,

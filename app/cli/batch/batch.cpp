@@ -175,7 +175,7 @@ void Batch::begin(std::size_t number) {
 
 void Batch::end(std::size_t number, const ChildEnd& how) {
     BatchRow& row = rows_[number];
-    std::string fault = "ended without a finished run";
+    std::string fault = "ended without a finished run; perhaps somebody else works on its project";
     std::string remark;
     try {
         if (const auto run = takeFacts(row, options_.wishes)) {
@@ -185,8 +185,8 @@ void Batch::end(std::size_t number, const ChildEnd& how) {
     } catch (const Error& error) {
         fault = error.what();
     }
-    if (how.exit_code == exit_stopped || (stopping_ && how.signal == SIGTERM))
-        return close(number, BatchState::stopped, "");
+    // Who ends a job tells all its processes at once, and this one may hear of it last.
+    if (how.exit_code == exit_stopped || how.signal == SIGTERM) return close(number, BatchState::stopped, "");
     if (how.signal != 0) return close(number, BatchState::failed, signalText(how.signal));
     if (how.exit_code != exit_ok) return close(number, BatchState::failed, how.lastWords());
     close(number, fault.empty() ? BatchState::done : BatchState::failed, fault.empty() ? remark : fault);

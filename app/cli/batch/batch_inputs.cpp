@@ -173,7 +173,9 @@ Shard shardFrom(const std::string& text) {
     if (!divided || second.ec != std::errc() || second.ptr != end || shard.parts < 1 || shard.part < 1 ||
         shard.part > shard.parts) {
         throw Error(ErrorKind::parameter,
-                    "--shard " + text + ": expected PART/PARTS with PART from 1 to PARTS, e.g. 2/8");
+                    "--shard " + text +
+                        ": expected PART/PARTS with PART from 1 to PARTS, e.g. 2/8 (in a script for Slurm write PARTS "
+                        "as a number: SLURM_ARRAY_TASK_COUNT is that of one submission)");
     }
     return shard;
 }

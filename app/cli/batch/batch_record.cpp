@@ -1,8 +1,19 @@
 #include "cli/batch/batch_record.h"
 
+#include <utility>
+
 #include "core/error.h"
 
 namespace eyrie::cli {
+
+BatchRecord::BatchRecord(std::filesystem::path base) : base_(std::move(base)) {
+    FileLock::Attempt attempt = FileLock::tryTake(base_.string() + ".lock");
+    if (attempt.outcome == FileLock::Outcome::held) {
+        throw Error(ErrorKind::output, base_.string() + ".csv is being written by another batch, " + attempt.words +
+                                           "; let it end first, or give --out another folder");
+    }
+    lock_ = std::move(attempt.lock);
+}
 
 void BatchRecord::log(const BatchRow& row) {
     unlogged_.push_back(row);

@@ -2,10 +2,12 @@
 
 #include <deque>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "cli/batch/batch_rows.h"
+#include "store/database/file_lock.h"
 
 namespace eyrie::cli {
 
@@ -13,8 +15,8 @@ namespace eyrie::cli {
 /// written with what comes next.
 class BatchRecord {
  public:
-    /// Writes `base`.csv and `base`.jsonl.
-    explicit BatchRecord(std::filesystem::path base) : base_(std::move(base)) {}
+    /// Writes `base`.csv and `base`.jsonl. Throws Error(output) while another batch does: both would do the same work.
+    explicit BatchRecord(std::filesystem::path base);
 
     void log(const BatchRow& row);
     void summarise(const std::vector<BatchRow>& rows);
@@ -22,7 +24,8 @@ class BatchRecord {
     const std::string& fault() const { return log_fault_.empty() ? summary_fault_ : log_fault_; }
 
  private:
-    std::filesystem::path base_;  ///< without its ending
+    std::filesystem::path base_;      ///< without its ending
+    std::unique_ptr<FileLock> lock_;  ///< none on a disk that cannot lock
     std::deque<BatchRow> unlogged_;
     std::string log_fault_;
     std::string summary_fault_;

@@ -110,7 +110,7 @@ void addBatchCommand(CLI::App& app, int& exit_code) {
     command
         ->add_option("--shard", *shard,
                      "Only part PART of PARTS, for several machines on the same folders: every file falls to one of "
-                     "them, e.g. $SLURM_ARRAY_TASK_ID/$SLURM_ARRAY_TASK_COUNT")
+                     "them, e.g. $SLURM_ARRAY_TASK_ID/8 with sbatch --array=1-8")
         ->type_name("PART/PARTS");
     command->callback([arguments, shard, &exit_code] { exit_code = runBatch(*arguments, *shard); });
 }

@@ -27,6 +27,7 @@ void refuseOtherThanVideo(const std::filesystem::path& path) {
                                           "evaluate, report, sweep or export as --project");
     }
     if (kind == FileKind::text || kind == FileKind::json || kind == FileKind::xml) {
+        if (hasVideoName(path)) throw Error(ErrorKind::input, what + "copy or record the video again");
         throw Error(ErrorKind::input, what +
                                           "import labels into a project (label workspace, or eyrie-cli import; --show "
                                           "tells what is in it), or evaluate against them as --ground-truth");
