@@ -322,6 +322,14 @@ TEST_F(Batches, theLogIsCompleteThoughItCouldNotBeWrittenForAWhile) {
     EXPECT_THAT(textOf("out/watch.jsonl"), HasSubstr("b.mp4"));
 }
 
+TEST_F(Batches, aPlaceWithoutAnyVideoIsAnErrorAsAnUnmountedDiskLooksSo) {
+    fs::create_directories(folder / "in");
+    const auto done = batch();
+    EXPECT_EQ(done.exit_code, 3);
+    EXPECT_THAT(done.error, AllOf(HasSubstr("there is no video in"), HasSubstr("mounted")));
+    EXPECT_FALSE(fs::exists(folder / "out")) << "nothing was begun";
+}
+
 TEST_F(Batches, whatCannotBeIsRefusedBeforeTheWork) {
     put("in/a.mp4");
     for (const char* shard : {"0/3", "4/3", "1/0", "x", "1/2/3"}) {

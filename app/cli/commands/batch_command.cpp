@@ -11,6 +11,7 @@
 #include "cli/batch/batch_console.h"
 #include "cli/command.h"
 #include "cli/interrupt.h"
+#include "core/error.h"
 
 namespace eyrie::cli {
 namespace {
@@ -35,9 +36,16 @@ int runBatch(const BatchArguments& arguments, const std::string& shard_text) {
     const Shard shard = shard_text.empty() ? Shard() : shardFrom(shard_text);
     const std::string record =
         shard.parts == 1 ? "batch" : "batch-" + std::to_string(shard.part) + "-of-" + std::to_string(shard.parts);
+    const std::vector<BatchInput> inputs = findInputs(arguments.places);
+    // An archive that is not mounted looks so, and a job that does nothing every night should not be called good.
+    if (inputs.empty()) {
+        throw Error(ErrorKind::input, "there is no video in " + arguments.places.front() +
+                                          (arguments.places.size() > 1 ? " or the other places" : "") +
+                                          "; check the folder, or whether its disk is mounted");
+    }
     Batch batch(arguments.options(record));
     const InterruptGuard interrupt;
-    batch.add(findInputs(arguments.places), shard);
+    batch.add(inputs, shard);
     BatchConsole console(arguments.quiet);
     while (batch.step()) {
         if (interrupt.token().stop_requested()) batch.stop();
