@@ -326,7 +326,7 @@ TEST_F(Batches, aPlaceWithoutAnyVideoIsAnErrorAsAnUnmountedDiskLooksSo) {
     fs::create_directories(folder / "in");
     const auto done = batch();
     EXPECT_EQ(done.exit_code, 3);
-    EXPECT_THAT(done.error, AllOf(HasSubstr("there is no video in"), HasSubstr("mounted")));
+    EXPECT_THAT(done.errors, testing::AllOf(HasSubstr("there is no video in"), HasSubstr("mounted")));
     EXPECT_FALSE(fs::exists(folder / "out")) << "nothing was begun";
 }
 
