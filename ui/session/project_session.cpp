@@ -86,12 +86,8 @@ void ProjectSession::listsRead(const ProjectLists& lists) {
     std::optional<RunRecord> before;
     if (current_run_)
         if (const RunRecord* run = findRun(*current_run_)) before = *run;
-    const auto start_before = givenStart();
-    const auto control_before = givenControl();
     takeLists(lists);
     emit changed(SessionChange::runs);
-    if (givenStart() != start_before) emit changed(SessionChange::start);
-    if (givenControl() != control_before) emit changed(SessionChange::control);
     if (!before) return;
     const RunRecord* now = findRun(before->id);
     if (now == nullptr || !hasGrown(*before, *now)) return;

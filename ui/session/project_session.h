@@ -26,9 +26,7 @@ enum class SessionChange {
     length,   ///< more of the same video: it is being recorded
     project,  ///< another one, or none
     opened,   ///< video and project are open
-    runs,     ///< the list of runs
-    start,    ///< givenStart(), by whatever program
-    control,  ///< givenControl(), by whatever program
+    runs,     ///< the list of runs, givenStart() and givenControl() were read anew
     current_run,
     run_data,  ///< the lists of the current run were read
     frame,     ///< currentFrame()

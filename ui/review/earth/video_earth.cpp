@@ -45,8 +45,9 @@ VideoEarth::VideoEarth(ProjectSession& session, QObject* parent) : QObject(paren
     followSession(session_, this,
                   {{SessionChange::video, [this] { readMetadata(); }},
                    {{SessionChange::project, SessionChange::opened}, [this] { layOnEarth(); }},
-                   {{SessionChange::start, SessionChange::control}, [this] {
-                        // What this window said itself is known already.
+                   {SessionChange::runs, [this] {
+                        // The lists of the project are there anew. Compared with what is known here, not with the lists
+                        // before: the file may have been read in between.
                         if (session_.givenStart() != given_start_us_ || session_.givenControl() != control_)
                             layOnEarth();
                     }}});
