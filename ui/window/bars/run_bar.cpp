@@ -55,8 +55,7 @@ RunBar::RunBar(ProjectSession& session, const WindowActions& actions, MessageBar
     gsd_->setPlaceholderText(unknownGsdText());
     gsd_->setAccessibleName(tr("Ground sampling distance, metres per pixel"));
     gsd_->setClearButtonEnabled(true);
-    gsd_->setMinimumWidth(fontMetrics().horizontalAdvance(gsd_->placeholderText()) + 40);
-    gsd_->setMaximumWidth(gsd_->minimumWidth() + 20);
+    gsd_->setFixedWidth(fontMetrics().horizontalAdvance(gsd_->placeholderText()) + 16);
     onFinished(this, &RunBar::takeGsd, gsd_);
     connect(gsd_, &QLineEdit::textEdited, this, &RunBar::forgetRefusal);
     connect(gsd_, &QLineEdit::returnPressed, this, &RunBar::editingDone);
