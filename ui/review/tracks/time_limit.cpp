@@ -25,7 +25,7 @@ QJsonValue jsonOf(const TimeLimit& limit) {
     return limit.of_day ? QJsonValue(timeLimitText(limit)) : QJsonValue(limit.value);
 }
 
-std::optional<TimeLimit> timeLimitOf(const QJsonValue& json) {
+std::optional<TimeLimit> storedLimitOf(const QJsonValue& json) {
     if (json.isString()) return timeLimitOf(json.toString());
     const int frame = json.toInt(-1);
     return frame < 0 ? std::nullopt : std::optional(TimeLimit{frame, false});
@@ -87,7 +87,7 @@ QJsonObject jsonOf(const TimeRange& range) {
 }
 
 TimeRange timeRangeOf(const QJsonObject& json) {
-    return {timeLimitOf(json[kFromWord]), timeLimitOf(json[kToWord])};
+    return {storedLimitOf(json[kFromWord]), storedLimitOf(json[kToWord])};
 }
 
 }  // namespace eyrie::ui
