@@ -14,22 +14,33 @@ namespace {
 constexpr double kUsualShare = 0.6;  ///< of states detected
 constexpr double kLifeOffset = 0.1;  ///< s
 
+constexpr double kLeastInPicture = 0.3;  ///< of the flow: what moves that much through the picture does not stick to it
+constexpr double kDeepestRatio = 0.25;   ///< of own motion to the flow: a fifth of the flight's height below the ground
+
 constexpr std::size_t kFigures = 10;
 /// As tests/learn_track_score prints them.
 constexpr std::array<double, kFigures> kWeights{-3.424, 4.551,  0.907, 2.522, 0.575,
                                                 -2.072, -1.055, 1.214, 1.688, -1.178};
 
+/// How far a thing that seems to move against the ground's flow may do so without moving, 0 … 1: it keeps its place in
+/// the picture, as dirt on the lens does, or lies a little below the ground's plane.
+double stillAgainstFlow(const TrackEvidence& e) {
+    const double in_picture = std::sqrt(std::max(0.0, 1 + e.flow_ratio * (e.flow_ratio + 2 * e.alignment)));
+    const double sticks = std::max(0.0, 1 - in_picture / kLeastInPicture);
+    const double below = e.flow_ratio < kDeepestRatio ? std::clamp(-e.alignment, 0.0, 1.0) : 0;
+    return std::max(sticks, below);
+}
+
 std::array<double, kFigures> figuresOf(const TrackEvidence& e) {
     const double flow = std::log1p(std::min(e.flow_px, kMostFlow));
     const double ever = e.looked_alike > 0 ? 1 : 0;
-    const double against = e.flow_ratio < kSticksRatio ? std::clamp(-e.alignment, 0.0, 1.0) : 0;
     return {1,
             e.detected,
             ever,
             std::sqrt(e.looked_alike),
             std::log(e.life_s + kLifeOffset),
             flow,
-            flow * against,
+            flow * stillAgainstFlow(e),
             flow * std::min(e.flow_ratio, kMostFlowRatio),
             flow * ever,
             flow * (e.detected - kUsualShare)};

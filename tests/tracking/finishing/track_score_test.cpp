@@ -111,10 +111,23 @@ TEST(TrackScore, BeyondALimitFasterTellsNoMore) {
     const auto ratio = [](double value) { return probabilityOf(with(&TrackEvidence::flow_ratio, value)); };
     EXPECT_EQ(ratio(1.51), ratio(3));
     EXPECT_LT(ratio(1.45), ratio(1.5));
-    TrackEvidence against = with(&TrackEvidence::alignment, -1);
-    EXPECT_LT(probabilityOf(with(&TrackEvidence::flow_ratio, 1.14, against)),
-              probabilityOf(with(&TrackEvidence::flow_ratio, 1.16, against)) - 0.015)
-        << "faster than the ground sticks to nothing";
+}
+
+TEST(TrackScore, AgainstTheFlowOnlyWhatCouldStickOrLieALittleBelowIsDoubted) {
+    const auto doubted = [](double ratio, double alignment = -1) {
+        const TrackEvidence moves = with(&TrackEvidence::flow_ratio, ratio);
+        return probabilityOf(with(&TrackEvidence::alignment, alignment, moves)) <
+               probabilityOf(with(&TrackEvidence::alignment, 0, moves)) - 1e-6;
+    };
+    EXPECT_TRUE(doubted(1));
+    EXPECT_TRUE(doubted(0.75)) << "a quarter of the flow through the picture";
+    EXPECT_TRUE(doubted(1.25));
+    EXPECT_FALSE(doubted(0.65));
+    EXPECT_FALSE(doubted(1.35));
+    EXPECT_FALSE(doubted(1, -0.95)) << "it moves aside by .31 of the flow";
+    EXPECT_TRUE(doubted(1, -0.97));
+    EXPECT_TRUE(doubted(0.24)) << "a fifth of the flight's height below the ground";
+    EXPECT_FALSE(doubted(0.26));
 }
 
 TEST(TrackScore, DoesNotDependOnHowLongTheVehicleStands) {
