@@ -91,7 +91,7 @@ RunBar::RunBar(ProjectSession& session, const WindowActions& actions, MessageBar
     const auto named = [&](const QString& name, QWidget* field) {
         auto* label = new QLabel(name, this);
         label->setBuddy(field);
-        layout->addSpacing(8);
+        layout->addSpacing(4);
         layout->addWidget(label);
         layout->addWidget(field);
     };
@@ -126,9 +126,9 @@ void RunBar::makeDetails() {
     details_ = new QComboBox(this);
     details_->setObjectName(QStringLiteral("kept_details"));
     details_->setAccessibleName(tr("What the run keeps beside its tracks"));
-    // The bar has to fit into small windows.
+    // The bar has to fit into small windows; the room of an icon that there is none of holds the rest of the words.
     details_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-    details_->setMinimumContentsLength(9);
+    details_->setMinimumContentsLength(6);
     const auto choice = [this](const QString& text, KeptDetails details) {
         details_->addItem(text, static_cast<int>(details));
     };
