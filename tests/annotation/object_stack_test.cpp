@@ -20,8 +20,8 @@ class NoisyScene {
     static OrientedBox truth(FrameIndex frame) { return {{60 + 3.0 * frame, 70 + 1.0 * frame}, 26, 12, 0.32}; }
 
     static cv::Mat clean(FrameIndex frame) {
-        static const cv::Mat ground = texture({240, 160}, 3, 3);
-        static const cv::Mat car = texture({26, 12}, 9, 1.2);
+        static const cv::Mat ground = test::groundTexture({240, 160}, 3, 3, 20, 235);
+        static const cv::Mat car = test::groundTexture({26, 12}, 9, 1.2, 20, 235);
         cv::Mat picture = ground.clone();
         const OrientedBox box = truth(frame);
         const cv::Point2d d = box.direction();
@@ -45,14 +45,6 @@ class NoisyScene {
     std::set<FrameIndex> asked;
 
  private:
-    static cv::Mat texture(cv::Size size, int seed, double blur) {
-        cv::Mat picture(size, CV_8UC1);
-        cv::RNG dice(static_cast<std::uint64_t>(seed));
-        dice.fill(picture, cv::RNG::UNIFORM, 0, 256);
-        cv::GaussianBlur(picture, picture, {}, blur);
-        cv::normalize(picture, picture, 20, 235, cv::NORM_MINMAX);
-        return picture;
-    }
     double noise_;
     int hidden_from_;
 };

@@ -12,13 +12,14 @@
 /// A flat ground seen by a moving camera, for the tests of labelling.
 namespace eyrie::test {
 
-/// A ground or a roof with something to follow on it; the larger `blur` (px), the coarser.
-inline cv::Mat groundTexture(cv::Size size, int seed, double blur) {
+/// A ground or a roof with something to follow on it; the larger `blur` (px), the coarser. `darkest` … `brightest`:
+/// grey.
+inline cv::Mat groundTexture(cv::Size size, int seed, double blur, double darkest = 40, double brightest = 200) {
     cv::Mat picture(size, CV_8UC1);
     cv::RNG dice(static_cast<std::uint64_t>(seed));
     dice.fill(picture, cv::RNG::UNIFORM, 0, 256);
     cv::GaussianBlur(picture, picture, {}, blur);
-    cv::normalize(picture, picture, 40, 200, cv::NORM_MINMAX);
+    cv::normalize(picture, picture, darkest, brightest, cv::NORM_MINMAX);
     return picture;
 }
 

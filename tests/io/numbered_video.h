@@ -5,8 +5,10 @@
 #include <fstream>
 #include <opencv2/imgproc.hpp>
 #include <string>
+#include <vector>
 
 #include "core/error.h"
+#include "io/live/live_stream.h"
 #include "io/video/frame_source.h"
 #include "io/video/video_writer.h"
 
@@ -35,6 +37,17 @@ inline int numberIn(const cv::Mat& gray) {
     for (int bit = 0; bit < kNumberBits; ++bit)
         if (gray.at<uchar>(gray.rows / 4, bit * field + field / 2) > 127) number |= 1 << bit;
     return number;
+}
+
+/// The numbers of all frames of a source; of a live one until it ends.
+inline std::vector<int> numbersOf(FrameSource& source) {
+    std::vector<int> numbers;
+    try {
+        for (FrameIndex frame = 0; frame < source.info().frame_count; ++frame)
+            numbers.push_back(numberIn(source.read(frame, false).gray));
+    } catch (const StreamEnded&) {
+    }
+    return numbers;
 }
 
 inline void writeNumberedVideo(const std::filesystem::path& path, int frames, const VideoWriterOptions& options = {},

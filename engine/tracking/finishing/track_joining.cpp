@@ -1,10 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <utility>
 
 #include "core/geometry/angle.h"
 #include "tracking/association/best_assignment.h"
+#include "tracking/finishing/shared_frames.h"
 #include "tracking/finishing/track_paths.h"
 
 namespace eyrie {
@@ -111,28 +110,19 @@ class Joiner {
     SceneScale scale_;
 };
 
-/// Pairs of which the second may continue the first, by the second, then the first. An hour has some 100,000 paths:
-/// only those that live at one time, or nearly, meet.
+/// Pairs of which the second may continue the first, by the second, then the first.
 std::vector<WeightedPair> possiblePairs(const std::vector<TrackPath>& paths, const Joiner& joiner) {
-    std::vector<std::size_t> by_begin(paths.size());
-    std::iota(by_begin.begin(), by_begin.end(), std::size_t{0});
-    std::stable_sort(by_begin.begin(), by_begin.end(),
-                     [&](std::size_t a, std::size_t b) { return paths[a].firstFrame() < paths[b].firstFrame(); });
+    LivingTracks living;
+    for (std::size_t i = 0; i < paths.size(); ++i) living.add(i, paths[i].firstFrame(), paths[i].lastFrame());
     std::vector<WeightedPair> pairs;
-    std::vector<std::size_t> living;
-    for (const std::size_t later : by_begin) {
+    for (std::size_t later = 0; later < paths.size(); ++later) {
         const FrameIndex begin = paths[later].firstFrame();
-        std::erase_if(living, [&](std::size_t path) { return begin - paths[path].lastFrame() > joiner.maxGap(); });
-        for (const std::size_t earlier : living) {
+        for (const std::size_t earlier : living.during(std::max(0, begin - joiner.maxGap()), begin)) {
             if (paths[earlier].firstFrame() >= begin) continue;
             const double worth = joiner.worth(paths[earlier], paths[later]);
             if (worth > 0) pairs.push_back({static_cast<int>(earlier), static_cast<int>(later), worth});
         }
-        living.push_back(later);
     }
-    std::sort(pairs.begin(), pairs.end(), [](const WeightedPair& a, const WeightedPair& b) {
-        return std::pair(a.column, a.row) < std::pair(b.column, b.row);
-    });
     return pairs;
 }
 

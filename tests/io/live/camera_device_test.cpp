@@ -60,17 +60,8 @@ class CameraStreams : public testing::Test {
         };
         return options;
     }
-    static std::vector<int> numbersOf(FrameSource& source) {
-        std::vector<int> numbers;
-        try {
-            for (FrameIndex frame = 0; frame < source.info().frame_count; ++frame)
-                numbers.push_back(test::numberIn(source.read(frame, false).gray));
-        } catch (const StreamEnded&) {
-        }
-        return numbers;
-    }
     std::vector<int> recorded() const {
-        return numbersOf(*openSource(folder_ / "recorded.ts", {.index_folder = folder_ / "index"}));
+        return test::numbersOf(*openSource(folder_ / "recorded.ts", {.index_folder = folder_ / "index"}));
     }
     static std::vector<int> numbersFrom(int first, int count) {
         std::vector<int> numbers(static_cast<std::size_t>(count));
@@ -86,7 +77,7 @@ TEST_F(CameraStreams, EveryPictureIsAFrameOfTheRunAndOfTheRecording) {
     LiveStream stream("camera:3", options({{0, 40}}), {});
     EXPECT_EQ(stream.info().size, cv::Size(160, 64));
     EXPECT_NEAR(stream.info().frame_rate_hz, 200, 0.1);
-    EXPECT_EQ(numbersOf(stream), numbersFrom(0, 40));
+    EXPECT_EQ(test::numbersOf(stream), numbersFrom(0, 40));
     EXPECT_EQ(recorded(), numbersFrom(0, 40));
     EXPECT_THAT(stream.facts().ended, AllOf(HasSubstr("no picture came for 1 s"), HasSubstr("no such camera")));
     stream.finish();
@@ -97,14 +88,14 @@ TEST_F(CameraStreams, ACameraThatIsConnectedAgainGoesOnInTheSameRecording) {
     LiveStream stream("/dev/video0", options({{0, 20}, {500, 20}}), {});
     std::vector<int> expected = numbersFrom(0, 20);
     for (const int number : numbersFrom(500, 20)) expected.push_back(number);
-    EXPECT_EQ(numbersOf(stream), expected);
+    EXPECT_EQ(test::numbersOf(stream), expected);
     EXPECT_EQ(recorded(), expected);
     EXPECT_EQ(stream.facts().reconnects, 1);
 }
 
 TEST_F(CameraStreams, PicturesOfAnotherSizeEndIt) {
     LiveStream stream("/dev/video0", options({{0, 20}, {500, 20, {320, 128}}}), {});
-    EXPECT_EQ(numbersOf(stream), numbersFrom(0, 20));
+    EXPECT_EQ(test::numbersOf(stream), numbersFrom(0, 20));
     EXPECT_THAT(stream.facts().ended, HasSubstr("changed from 160×64 px to 320×128 px"));
 }
 

@@ -41,18 +41,8 @@ class LiveStreams : public testing::Test {
         return options;
     }
     std::string address() const { return "udp://127.0.0.1:" + std::to_string(port_); }
-    /// Reads to the end; the numbers that the pictures carry.
-    static std::vector<int> numbersOf(FrameSource& source) {
-        std::vector<int> numbers;
-        try {
-            for (FrameIndex frame = 0; frame < source.info().frame_count; ++frame)
-                numbers.push_back(test::numberIn(source.read(frame, false).gray));
-        } catch (const StreamEnded&) {
-        }
-        return numbers;
-    }
     std::vector<int> recorded() const {
-        return numbersOf(*openSource(folder_ / "recorded.ts", {.index_folder = folder_ / "index"}));
+        return test::numbersOf(*openSource(folder_ / "recorded.ts", {.index_folder = folder_ / "index"}));
     }
     test::TemporaryFolder folder_;
     int port_ = test::freePort();
@@ -63,7 +53,7 @@ TEST_F(LiveStreams, FramesComeInOrderAndAreThoseOfTheRecording) {
     LiveStream stream(address(), options(), {});
     EXPECT_EQ(stream.info().size, cv::Size(160, 64));
     EXPECT_NEAR(stream.info().frame_rate_hz, 25, 0.01);
-    const std::vector<int> numbers = numbersOf(stream);
+    const std::vector<int> numbers = test::numbersOf(stream);
     ASSERT_GE(numbers.size(), 50U);
     for (std::size_t i = 1; i < numbers.size(); ++i) EXPECT_EQ(numbers[i], numbers[0] + static_cast<int>(i));
     EXPECT_EQ(recorded(), numbers);
@@ -78,7 +68,7 @@ TEST_F(LiveStreams, AfterAStallItIsConnectedToAgainAndTheRecordingGoesOn) {
     patient.give_up_s = 6;
     const LiveSender sender(port_, {{film("a.ts", 40), 1, 0.3}, {film("b.ts", 40, 500), 1, 2}});
     LiveStream stream(address(), patient, {});
-    const std::vector<int> numbers = numbersOf(stream);
+    const std::vector<int> numbers = test::numbersOf(stream);
     const LiveFacts facts = stream.facts();
     EXPECT_EQ(facts.reconnects, 1);
     EXPECT_GT(facts.longest_gap_s, 1);
@@ -133,7 +123,7 @@ TEST_F(LiveStreams, AReaderThatIsBehindGetsRepeatsInPlaceOfWhatWasLeftOut) {
 TEST_F(LiveStreams, APictureOfAnotherSizeEndsIt) {
     const LiveSender sender(port_, {{film("a.ts", 30), 0.7, 0.3}, {film("b.ts", 30, 0, {320, 128}), 0.7, 0.1}});
     LiveStream stream(address(), options(), {});
-    const std::vector<int> numbers = numbersOf(stream);
+    const std::vector<int> numbers = test::numbersOf(stream);
     EXPECT_LE(numbers.size(), 31U);
     EXPECT_THAT(stream.facts().ended, HasSubstr("changed from 160×64 px to 320×128 px"));
 }
@@ -145,7 +135,7 @@ TEST_F(LiveStreams, ACodecOrSizeThatIsAnotherAfterConnectingAgainEndsItAndIsNotR
           std::pair(film("c.ts", 30, 100, {320, 128}), "the picture changed from 160×64 px to 320×128 px")}) {
         const test::LiveServer server({first, test::bytesOf(other)});
         LiveStream stream("tcp://" + server.place(), options(), {});
-        const std::vector<int> numbers = numbersOf(stream);
+        const std::vector<int> numbers = test::numbersOf(stream);
         EXPECT_EQ(numbers.size(), 30U);
         EXPECT_EQ(stream.facts().ended, change + std::string(" after frame 29; start another run for it"));
         EXPECT_EQ(recorded(), numbers);
@@ -155,7 +145,7 @@ TEST_F(LiveStreams, ACodecOrSizeThatIsAnotherAfterConnectingAgainEndsItAndIsNotR
 TEST_F(LiveStreams, AFileOnTheNetEndsWhereItEnds) {
     const test::LiveServer server({test::LiveServer::httpReply(test::bytesOf(film("a.ts", 30))), {}});
     LiveStream stream("http://" + server.place() + "/a.ts", options(), {});
-    EXPECT_EQ(numbersOf(stream).size(), 30U);
+    EXPECT_EQ(test::numbersOf(stream).size(), 30U);
     EXPECT_THAT(stream.facts().ended, HasSubstr("the source has an end"));
     EXPECT_EQ(server.connections(), 1);
 }
@@ -164,7 +154,7 @@ TEST_F(LiveStreams, AConnectionThatBreaksOffIsNoEnd) {
     const std::string whole = test::LiveServer::httpReply(test::bytesOf(film("a.ts", 30)));
     const test::LiveServer server({whole.substr(0, whole.size() / 2), whole});
     LiveStream stream("http://" + server.place() + "/a.ts", options(), {});
-    EXPECT_GT(numbersOf(stream).size(), 30U);
+    EXPECT_GT(test::numbersOf(stream).size(), 30U);
     EXPECT_EQ(stream.facts().reconnects, 1);
 }
 
@@ -180,7 +170,7 @@ TEST_F(LiveStreams, MetadataWithoutPicturesAreAStall) {
     const LiveSender sender(port_, {{folder_ / "a.ts", 30, 0.3}});
     const auto begin = std::chrono::steady_clock::now();
     LiveStream stream(address(), options(), {});
-    EXPECT_GE(numbersOf(stream).size(), 20U);
+    EXPECT_GE(test::numbersOf(stream).size(), 20U);
     EXPECT_THAT(stream.facts().ended, HasSubstr("no picture came for 2 s"));
     EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(25));
 }
@@ -276,7 +266,7 @@ TEST_F(LiveStreams, TheSpaceThatIsLeftIsToldAndTooLittleEndsIt) {
     EXPECT_FALSE(std::filesystem::exists(folder_ / "recorded.ts"));
     const LiveSender sender(port_, {{film("a.ts", 60), 1.5, 0.3}});
     LiveStream stream(address(), options(), {});
-    numbersOf(stream);
+    test::numbersOf(stream);
     EXPECT_GT(stream.facts().free_bytes, 0U);
     EXPECT_EQ(stream.facts().recorded_bytes, std::filesystem::file_size(folder_ / "recorded.ts"));
 }
