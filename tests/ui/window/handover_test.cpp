@@ -42,14 +42,15 @@ class HandoverTest : public QObject {
         const auto window = test::windowWithRun();
         QVERIFY(window);
         QVERIFY(window->actions().export_tracks->isEnabled());
-        int boxes = 0;
-        const auto listed = [&] {  // the tracks of the run as it is finished, not while it goes on
-            if (!window->session().runData()) return false;
-            for (const TrackSummary& track : window->session().runData()->tracks)
-                if (track.confirmed && !track.doubtful) boxes += track.frames;
-            return boxes > 0;
+        const auto finished = [&] {  // the lists of the run as it ended, not as it went
+            const auto& data = window->session().runData();
+            return data && !data->record.live && !data->tracks.empty();
         };
-        QVERIFY(QTest::qWaitFor(listed, kPatience_ms));
+        QVERIFY(QTest::qWaitFor(finished, kPatience_ms));
+        int boxes = 0;
+        for (const TrackSummary& track : window->session().runData()->tracks)
+            if (track.confirmed && !track.doubtful) boxes += track.frames;
+        QVERIFY(boxes > 0);
         ExportDialog dialog(trackExport(window->session()));
         const auto file = *home_ / "tracks.txt";
         dialog.setFormat(QStringLiteral("mot"));
