@@ -44,6 +44,7 @@ TEST(SameReason, WhyAndTheCauseOfAMissNameTheSameParameterOfClustering) {
             EXPECT_EQ(told.parameter, hindrance.parameter) << told.sentence;
         }
         EXPECT_EQ(miss.cause, hindrance.cause) << miss.text;
+        EXPECT_THAT(told.sentence, HasSubstr(test::comparisonIn(miss))) << "one wording for both";
     }
 }
 

@@ -213,6 +213,7 @@ TEST_F(HandMadeFrame, EveryRejectionHasOneCause) {
         // Which of the rules for duplicates it was, a run does not store.
         if (rejection != Rejection::duplicate) {
             EXPECT_THAT(error.text, HasSubstr(named(told.parameter)));
+            EXPECT_THAT(told.sentence, HasSubstr(test::comparisonIn(error))) << "one wording for both";
         }
     }
 }

@@ -248,7 +248,7 @@ TEST(Explanation, detectionThatReachesBeyondThePicture) {
     options.outliers.inside_image = true;
     const Explanation told = explained(evidence, options, scaleOfTests());
     EXPECT_EQ(told.parameter, "outliers.inside_image");
-    EXPECT_THAT(told.sentence, HasSubstr("reaches beyond the picture: 0.694 of the box is in the picture"));
+    EXPECT_THAT(told.sentence, HasSubstr("reaches beyond the picture: 69.4 % of the box is in the picture"));
 }
 
 TEST(Explanation, duplicateNamesTheOverlapThatDecided) {
