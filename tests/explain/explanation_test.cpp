@@ -187,7 +187,7 @@ TEST(Explanation, vectorsThatTheLinkageKeepsApart) {
     const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
     EXPECT_EQ(told.parameter, "clustering.min_distance");  // 1.0 m are 4 px, and so is the floor
     ChainOptions no_floor = plainOptions();
-    no_floor.clustering.min_distance_px = 1;
+    no_floor.clustering.min_distance = 1;
     EXPECT_EQ(explained(evidence, no_floor, scaleOfTests()).parameter, "clustering.across");
     EXPECT_THAT(told.sentence, HasSubstr("3 motion vectors lie here, but only 2 are linked"));
     // Near enough, but half as fast: a difference of 1 px/frame, where 12 % of the mean of 1.5 are allowed.
