@@ -188,6 +188,23 @@ class WorkspacesTest : public QObject {
         QVERIFY(!window->overlays().isVisible(VectorLayer::kKind));
     }
 
+    void aLayoutOfAnEarlierArrangementIsNotRestored() {
+        const auto window = this->window();
+        QVERIFY(window);
+        const QString kept = QStringLiteral("label/layout");
+        go(*window, Qt::Key_2);
+        QVERIFY(shown(*window, DockId::object));
+        window->docks().dock(DockId::object)->hide();
+        QVariantMap state = window->workspaces().state();
+        window->workspaces().restore(state);
+        QVERIFY2(!shown(*window, DockId::object), "of this arrangement it is");
+        state[kept] = window->saveState(5);  // as versions kept it that had two columns
+        window->workspaces().restore(state);
+        QVERIFY(shown(*window, DockId::object));
+        QVERIFY2(window->workspaces().state()[kept].toByteArray() != state[kept].toByteArray(),
+                 "from now on this arrangement is kept");
+    }
+
     void theLayoutCanBeReset() {
         const auto window = this->window();
         QVERIFY(window);
