@@ -41,7 +41,7 @@ EventReview::EventReview(ProjectSession& session, EventReviewAnswers answers, QO
       session_(session),
       answers_(std::move(answers)),
       search_due_(kSearchDelay_ms, [this] { search(); }),
-      reread_(kRereadVerdicts_ms, [this] { refreshReadOnly(); }),
+      reread_(kRereadVerdicts_ms, [this] { rereadReadOnly(); }),
       look_again_(kLookAgain_ms, [this] { searchSoFar(); }) {
     whenChanged(
         session_, this,
@@ -245,15 +245,30 @@ void EventReview::adopt(const std::shared_ptr<const FoundEvents>& found, std::ui
     setState(State::found);
 }
 
-void EventReview::refreshReadOnly() {
+void EventReview::rereadReadOnly() {
     if (!store_ || !store_->readOnly()) {
         reread_.stop();
         return;
     }
+    const auto work = [this, path = store_project_, sequence_id = store_sequence_,
+                       known = store_->changes()](const BackgroundTask& task) {
+        ProjectFile project = ProjectFile::open(path, ProjectFile::Mode::read_only);
+        task.tell([this, reading = ReviewStore::readIfChanged(project, sequence_id, known)] { follow(reading); });
+    };
+    const auto failed = [this](const QString& message) {
+        reread_.stop();
+        answers_.tell_problem(message);
+    };
+    store_query_.ask(work, failed, BackgroundQuery::Former::finish);
+}
+
+void EventReview::follow(std::optional<ReviewStore::Reading> reading) {
+    if (!store_ || !store_->readOnly()) return;
     try {
         // Events of verdicts that another window made are found; when it is closed, the right to judge is ours.
         const auto corrections = correctionsIn(*store_);
-        if (!store_->tryToWrite() && !store_->refresh()) return;
+        const bool others = reading && store_->follow(std::move(*reading));
+        if (!store_->tryToWrite() && !others) return;
         answers_.show_zones();
         if (correctionsIn(*store_) != corrections)
             useOtherCorrections();
