@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "explain/explanation_steps.h"
-
 namespace eyrie::explanation_test {
 namespace {
 
@@ -435,13 +433,6 @@ TEST(Explanation, whatSpeaksForATrackAndAgainstItIsTold) {
     evidence.judged[7].score = 0.01;
     EXPECT_EQ(stepWith("probability of 0.01, at least").verdict, StepVerdict::failed);
     EXPECT_FALSE(stepWith("detected in 90 % of its frames").text.empty());
-}
-
-TEST(Explanation, numbersArePlain) {
-    EXPECT_EQ(explaining::numberText(0.1234), "0.123");
-    EXPECT_EQ(explaining::numberText(12345.6), "12346");
-    EXPECT_EQ(explaining::numberText(2), "2");
-    EXPECT_EQ(explaining::countText(1, "corner", "corners"), "1 corner");
 }
 
 }  // namespace
