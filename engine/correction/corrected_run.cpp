@@ -1,4 +1,5 @@
 #include "correction/corrected_run.h"
+#include "correction/track_frames.h"
 
 #include <algorithm>
 #include <cmath>

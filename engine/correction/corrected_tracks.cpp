@@ -4,50 +4,18 @@
 #include <array>
 #include <cmath>
 
-#include "core/error.h"
 #include "correction/joined_states.h"
+#include "correction/track_frames.h"
 
 namespace eyrie {
 namespace {
 
 constexpr double kLongestGap_s = 10;
-constexpr double kMostOfALife = 0.6;        ///< share of boxes that cover an added track
-constexpr std::size_t kBoxesOfATrack = 12;  ///< by which a track is found again
-constexpr std::size_t kMostCompared = 48;
+constexpr double kMostOfALife = 0.6;  ///< share of boxes that cover an added track
 constexpr double kSameCentre = 0.35;  ///< of a length: boxes that hardly overlap may be one vehicle still
 constexpr double kLeastOverlap = 0.1;
 
 using States = std::vector<TrackFrame>;
-
-/// The first state in a frame or after it.
-States::const_iterator from(const States& states, FrameIndex frame) {
-    return std::lower_bound(states.begin(), states.end(), frame,
-                            [](const TrackFrame& each, FrameIndex at) { return each.frame < at; });
-}
-
-const TrackState* stateIn(const States& states, FrameIndex frame) {
-    const auto found = from(states, frame);
-    return found != states.end() && found->frame == frame ? &found->state : nullptr;
-}
-
-/// At most `count` of many, evenly, the first and the last among them.
-template <class Value>
-std::vector<Value> thinned(const std::vector<Value>& all, std::size_t count) {
-    if (all.size() <= count) return all;
-    std::vector<Value> some;
-    for (std::size_t i = 0; i < count; ++i) some.push_back(all[i * (all.size() - 1) / (count - 1)]);
-    return some;
-}
-
-/// Some boxes by which states are found again, rather those that were seen.
-std::vector<Sighting> sightingsOf(States::const_iterator begin, States::const_iterator end) {
-    std::vector<Sighting> seen, all;
-    for (auto each = begin; each != end; ++each) {
-        all.push_back({each->frame, each->state.box});
-        if (each->state.origin != StateOrigin::predicted) seen.push_back(all.back());
-    }
-    return thinned(seen.empty() ? all : seen, kBoxesOfATrack);
-}
 
 /// The tracks while corrections are applied, one after the other.
 class Workbench {
@@ -192,7 +160,7 @@ class Workbench {
             return CorrectionState::covered;
         }
         const CorrectedTrack whole = present_[id];
-        const auto cut = from(whole.states, correction.frame);
+        const auto cut = firstFrom(whole.states, correction.frame);
         drop(id);
         CorrectedTrack before{CorrectionKind::split, whole.corrections, {whole.states.begin(), cut}};
         CorrectedTrack after{CorrectionKind::split, whole.corrections, {cut, whole.states.end()}};
@@ -285,10 +253,6 @@ bool isLeft(CorrectionState state) {
     return state != CorrectionState::applied && state != CorrectionState::covered && state != CorrectionState::absent;
 }
 
-std::vector<Sighting> comparedOf(const std::vector<Sighting>& sightings) {
-    return thinned(sightings, kMostCompared);
-}
-
 std::optional<double> likenessOf(const OrientedBox& a, const OrientedBox& b) {
     const cv::Point2d way = a.centre - b.centre;
     const double far = std::hypot(way.x, way.y);
@@ -351,49 +315,6 @@ std::string correctionsInWords(const CorrectedTracks& corrected) {
         text += (text.empty() ? "" : "; ") + std::to_string(left) + (left == 1 ? " correction" : " corrections") +
                 " could not be carried over";
     return text;
-}
-
-TrackCorrection additionOf(std::vector<Sighting> boxes, FrameIndex drawn) {
-    TrackCorrection correction;
-    correction.kind = CorrectionKind::add;
-    correction.frame = drawn;
-    correction.track = std::move(boxes);
-    return correction;
-}
-
-TrackCorrection joinOf(const std::vector<TrackFrame>& one, const std::vector<TrackFrame>& other) {
-    const bool in_order = one.front().frame <= other.front().frame;
-    const States& first = in_order ? one : other;
-    const States& second = in_order ? other : one;
-    TrackCorrection correction;
-    correction.kind = CorrectionKind::join;
-    correction.frame = second.front().frame;
-    correction.track = sightingsOf(first.begin(), first.end());
-    correction.other = sightingsOf(second.begin(), second.end());
-    return correction;
-}
-
-TrackCorrection splitOf(const std::vector<TrackFrame>& track, FrameIndex frame) {
-    if (track.empty() || frame <= track.front().frame || frame > track.back().frame) {
-        throw Error(ErrorKind::parameter, "the track can be split between its first and its last frame, not at frame " +
-                                              std::to_string(frame) + "; go to where the next vehicle takes it over");
-    }
-    const auto cut = from(track, frame);
-    TrackCorrection correction;
-    correction.kind = CorrectionKind::split;
-    correction.frame = frame;
-    correction.track = sightingsOf(track.begin(), cut);
-    for (const Sighting& each : sightingsOf(cut, track.end())) correction.track.push_back(each);
-    return correction;
-}
-
-TrackCorrection rejectionOf(const std::vector<TrackFrame>& track, const std::vector<TrackFrame>& beside) {
-    TrackCorrection correction;
-    correction.kind = CorrectionKind::reject;
-    correction.frame = track.front().frame;
-    correction.track = sightingsOf(track.begin(), track.end());
-    correction.other = sightingsOf(from(beside, track.front().frame), from(beside, track.back().frame + 1));
-    return correction;
 }
 
 bool isOfResult(const std::vector<TrackFrame>& states) {

@@ -77,19 +77,9 @@ CorrectedTracks correctTracks(const TracksToCorrect& run, const std::map<int, Tr
 /// corrected anything.
 std::string correctionsInWords(const CorrectedTracks& corrected);
 
-/// The corrections that make it so, without number and person. Tracks as they are shown when it is made.
-TrackCorrection additionOf(std::vector<Sighting> boxes, FrameIndex drawn);
-TrackCorrection joinOf(const std::vector<TrackFrame>& one, const std::vector<TrackFrame>& other);
-/// `frame` is the first of the later part. Throws Error(parameter) where it leaves nothing of the track.
-TrackCorrection splitOf(const std::vector<TrackFrame>& track, FrameIndex frame);
-/// `beside`: the track on the same vehicle that is kept; none: there is no such.
-TrackCorrection rejectionOf(const std::vector<TrackFrame>& track, const std::vector<TrackFrame>& beside = {});
-
 /// Whether any of these states makes the track part of a result.
 bool isOfResult(const std::vector<TrackFrame>& states);
 
-/// Those of many boxes by which tracks are compared with what a correction holds: a few dozen, evenly.
-std::vector<Sighting> comparedOf(const std::vector<Sighting>& sightings);
 /// Whether two boxes of one frame may be the same vehicle; higher is likelier, nothing: they are not.
 std::optional<double> likenessOf(const OrientedBox& a, const OrientedBox& b);
 

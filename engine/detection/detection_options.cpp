@@ -17,7 +17,7 @@ DetectionOptions DetectionOptions::thesis() {
     options.method = DetectionMethod::gradient;
     options.min_roi_length_m = 0;
     options.min_roi_width_m = 0;
-    options.cluster_margin_px = 0;
+    options.cluster_margin = 0;
     for (const DetectionMethod known : allDetectionMethods()) kindOf(known).set_as_in_thesis(options);
     return options;
 }
@@ -45,7 +45,7 @@ void DetectionOptions::describe(ParameterVisitor& visitor) {
                  {"m", "A search area is at least this long.", ""});
     declare.real("detection.min_roi_width", min_roi_width_m, 0, 100, {"m", "A search area is at least this wide.", ""});
     deciding.real(
-        "detection.cluster_margin", cluster_margin_px, 0, 20,
+        "detection.cluster_margin", cluster_margin, 0, 20,
         {"px", "Where a cluster itself is the detection, its box is grown by this on every side of its vectors.", ""});
     for (const DetectionMethod known : allDetectionMethods()) kindOf(known).describe(*this, visitor);
 }

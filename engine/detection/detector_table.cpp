@@ -30,28 +30,28 @@ void leaveAsItIs(DetectionOptions&) {}
 /// A segmentation with options of its own; what gradient.* says of components holds for it, too.
 template <class Segmenter, auto Own>
 Made makeSegmenter(const DetectionOptions& options, const SceneScale& scale) {
-    return std::make_unique<Segmenter>(options.*Own, options.gradient, scale, options.cluster_margin_px);
+    return std::make_unique<Segmenter>(options.*Own, options.gradient, scale, options.cluster_margin);
 }
 
 Made makeClusters(const DetectionOptions& options, const SceneScale&) {
-    return std::make_unique<MotionClusterDetector>(options.cluster_margin_px);
+    return std::make_unique<MotionClusterDetector>(options.cluster_margin);
 }
 
 Made makeGradient(const DetectionOptions& options, const SceneScale& scale) {
-    return std::make_unique<GradientSegmenter>(options.gradient, scale, options.cluster_margin_px);
+    return std::make_unique<GradientSegmenter>(options.gradient, scale, options.cluster_margin);
 }
 
 Made makeWindow(const DetectionOptions& options, const SceneScale& scale) {
-    return makeSlidingWindowDetector(options.sliding_window, scale, options.cluster_margin_px);
+    return makeSlidingWindowDetector(options.sliding_window, scale, options.cluster_margin);
 }
 
 Made makeWindowAndGradient(const DetectionOptions& options, const SceneScale& scale) {
     SlidingWindowOptions window = options.sliding_window;
     window.fall_back = false;
     window.rejection_margin = options.window_and_gradient.rejection_margin;
-    return std::make_unique<WindowAndGradientDetector>(
-        makeSlidingWindowDetector(window, scale, options.cluster_margin_px), makeGradient(options, scale),
-        options.window_and_gradient, cvFloor(scale.px(window.context_m)));
+    return std::make_unique<WindowAndGradientDetector>(makeSlidingWindowDetector(window, scale, options.cluster_margin),
+                                                       makeGradient(options, scale), options.window_and_gradient,
+                                                       cvFloor(scale.px(window.context_m)));
 }
 
 using Options = DetectionOptions;

@@ -31,6 +31,7 @@ BoxFacts FrameFacts::at(const OrientedBox& box) {
     const FrameMotion& motion = result.motion;
     facts.registration = motion.registration.state;
     facts.failure = motion.registration.failure;
+    facts.scale = scale_.at(box.centre);
     facts.image = motion.image_size;
     if (motion.registration.state == RegistrationState::registered) {
         const Homography& step = motion.registration.current_from_previous;

@@ -7,6 +7,7 @@
 
 #include "chain/chain_options.h"
 #include "core/values/frame_result.h"
+#include "core/values/scene_scale.h"
 #include "motion/clusters/clustering_trace.h"
 #include "removal/removal_trace.h"
 
@@ -22,6 +23,7 @@ struct NearBox {
 struct BoxFacts {
     RegistrationState registration = RegistrationState::registered;
     RegistrationFailure failure;  ///< why the frame could not be registered
+    SceneScale scale;             ///< at the place
     cv::Size image;               ///< px
     cv::Point2d flow;             ///< px, how the ground moves through the image at the place since the frame before
 

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "motion/clusters/clustering_wording.h"
+#include "removal/removal_wording.h"
+
 namespace eyrie {
 namespace {
 
@@ -80,21 +83,9 @@ CauseHere leftOut(const DroppedState& dropped) {
 }
 
 /// What removal told of the detection.
-CauseHere removedBy(const RemovalVerdict& verdict) {
-    const bool counted = verdict.rejection == Rejection::outlier;
-    const int decimals = counted ? 0 : 1;
-    std::string text;
-    if (verdict.rejection == Rejection::duplicate) {
-        text = "a detection here was fused into another";
-    } else if (verdict.parameter == "outliers.inside_image") {
-        text = number(100 * verdict.value, 0) + " % of the box is in the picture" + by(verdict.parameter);
-    } else if (!verdict.parameter.empty()) {
-        const char* size_unit = verdict.parameter == "outliers.min_area" ? " px²" : " px";
-        text = number(verdict.value, decimals) + (counted ? " motion vectors" : size_unit) +
-               (verdict.at_most ? ", at most " : ", at least ") + number(verdict.limit, decimals) +
-               by(verdict.parameter);
-    }
-    return {causeOf(verdict.rejection), text};
+CauseHere removedBy(const BoxFacts& facts) {
+    const RemovalVerdict& verdict = facts.removal;
+    return {causeOf(verdict.rejection), textOf(verdict, facts.scale) + by(verdict.parameter)};
 }
 
 /// What clustering told of motion vectors that are in no cluster.
@@ -102,27 +93,11 @@ CauseHere notClustered(const BoxFacts& facts) {
     const ClusteringVerdict& verdict = facts.clustering;
     const std::string vectors = std::to_string(facts.motion_vectors) + " motion vectors";
     if (facts.by_differences)
-        return {ErrorCause::not_clustered, vectors + ", but the difference image shows nothing (motion.method)"};
-    const std::string linked = std::to_string(verdict.group.size());
-    const std::string size = number(verdict.value, 1) + " px";
-    const std::string parameter = by(verdict.parameter);
-    switch (verdict.refusal) {
-        case ClusterRefusal::too_few:
-            return {ErrorCause::too_few_vectors,
-                    linked + " motion vectors, " + std::to_string(verdict.needed) + " make a cluster" + parameter};
-        case ClusterRefusal::not_linked:
-            return {ErrorCause::not_clustered, vectors + ", but only " + linked + " are linked" + parameter};
-        case ClusterRefusal::split_off:
-            return {ErrorCause::not_clustered, "left over when a cluster of " + size + " was split" + parameter};
-        case ClusterRefusal::too_long:
-            return {ErrorCause::not_clustered, "linked motion vectors are " + size + " long" + parameter};
-        case ClusterRefusal::too_wide:
-            return {ErrorCause::not_clustered, "linked motion vectors are " + size + " wide" + parameter};
-        case ClusterRefusal::not_finite:
-        case ClusterRefusal::none:
-            break;
-    }
-    return {ErrorCause::not_clustered, vectors};
+        return {ErrorCause::not_clustered, vectors + ", but " + kNoMovingArea + by("motion.method")};
+    const bool too_few = verdict.refusal == ClusterRefusal::too_few;
+    const std::string told = textOf(verdict, facts.scale);
+    return {too_few ? ErrorCause::too_few_vectors : ErrorCause::not_clustered,
+            told.empty() ? vectors : told + by(verdict.parameter)};
 }
 
 /// What the stages before tracking tell of a missed object.
@@ -132,7 +107,7 @@ CauseHere stageThatLost(const BoxFacts& facts, const ErrorEvidence& evidence) {
     if (facts.dropped.overlap >= needed) return leftOut(facts.drop);
     if (facts.kept.overlap >= needed)
         return {ErrorCause::not_associated, "a detection overlaps it by " + number(facts.kept.overlap, 2)};
-    if (facts.rejected.overlap >= needed) return removedBy(facts.removal);
+    if (facts.rejected.overlap >= needed) return removedBy(facts);
     if (facts.kept.overlap >= kNearMiss * needed && facts.kept.overlap > 0)
         return {ErrorCause::box_off, "detection: " + offText(facts.kept.overlap, needed)};
     if (facts.registration == RegistrationState::failed)
@@ -295,119 +270,6 @@ CauseHere causeOfMerge(const ErrorPlace&, const ErrorEvidence& evidence) {
     if (shared([](const BoxFacts& f) -> const std::vector<int>& { return f.covering; }))
         return {ErrorCause::segmented_together, ""};
     return {ErrorCause::tracked_together, ""};
-}
-
-const char* nameOf(ErrorCause cause) {
-    static constexpr const char* names[kErrorCauses] = {"unknown",
-                                                        "not registered",
-                                                        "just came into view",
-                                                        "no corners",
-                                                        "too slow",
-                                                        "too few vectors",
-                                                        "not clustered",
-                                                        "not detected",
-                                                        "removed as duplicate",
-                                                        "removed as outlier",
-                                                        "removed by size",
-                                                        "not associated",
-                                                        "track not confirmed",
-                                                        "track left out",
-                                                        "box off",
-                                                        "merged",
-                                                        "split",
-                                                        "at the border",
-                                                        "of another class",
-                                                        "duplicate",
-                                                        "ignored object",
-                                                        "outside the image",
-                                                        "coasting",
-                                                        "shadow",
-                                                        "parallax",
-                                                        "nothing labelled",
-                                                        "swapped",
-                                                        "track ended",
-                                                        "track left",
-                                                        "clustered together",
-                                                        "segmented together",
-                                                        "tracked together",
-                                                        "clustered apart",
-                                                        "segmented apart"};
-    return names[static_cast<std::size_t>(cause)];
-}
-
-const char* explanationOf(ErrorCause cause) {
-    switch (cause) {
-        case ErrorCause::unknown:
-            return "Nothing that the run stored explains it.";
-        case ErrorCause::unregistered:
-            return "The camera's motion could not be measured in this frame or just before (registration.*).";
-        case ErrorCause::too_new:
-            return "It has not been in view long enough for its corners to be judged (motion.min_age).";
-        case ErrorCause::no_corners:
-            return "No corner was found in the box (registration.*: more, or weaker, corners).";
-        case ErrorCause::too_slow:
-            return "There are corners in the box, but none moves fast enough (motion.min_speed, motion.sigma_factor).";
-        case ErrorCause::too_few_vectors:
-            return "Too few motion vectors for a cluster (clustering.min_members, clustering.min_density_share).";
-        case ErrorCause::not_clustered:
-            return "Its motion vectors lie too far apart, move too differently or are together too large for a cluster "
-                   "(clustering.along, clustering.across and others).";
-        case ErrorCause::not_detected:
-            return "It was clustered, but segmentation or classifier found no box there (detection.*).";
-        case ErrorCause::removed_duplicate:
-            return "It was detected, but fused into another detection (duplicates.*).";
-        case ErrorCause::removed_outlier:
-            return "It was detected, but had too few motion vectors inside (outliers.min_vectors).";
-        case ErrorCause::removed_size:
-            return "It was detected, but its size was out of bounds (outliers.min_length and others).";
-        case ErrorCause::not_associated:
-            return "It was detected, but belongs to no track of the result (tracking.*).";
-        case ErrorCause::tentative:
-            return "It was followed, but the track was not confirmed (tracking.*).";
-        case ErrorCause::track_dropped:
-            return "It was followed, but the track was left out when the tracks were finished (finishing.*).";
-        case ErrorCause::box_off:
-            return "A box is there, but overlaps by less than T_ov.";
-        case ErrorCause::merged:
-            return "It was taken for one with a neighbour.";
-        case ErrorCause::split:
-            return "The object was found in several parts.";
-        case ErrorCause::at_border:
-            return "It was found, but its result lies so near to the image's edge that it was left out.";
-        case ErrorCause::other_class:
-            return "It was found, but its result names another class, which size and speed decide (classes.*).";
-        case ErrorCause::duplicate:
-            return "A second box on an object that is found already (duplicates.*).";
-        case ErrorCause::ignored_object:
-            return "It lies beside an ignored object, such as a person or a standing vehicle.";
-        case ErrorCause::outside_image:
-            return "Its middle lies outside the image: the track goes on after the object has left.";
-        case ErrorCause::coasting:
-            return "The track went on by prediction although nothing was detected (tracking.*).";
-        case ErrorCause::shadow:
-            return "It moves along beside an object: probably its shadow (motion.shadow_*).";
-        case ErrorCause::parallax:
-            return "It moves like the parallax of something that stands above the ground (motion.parallax_*).";
-        case ErrorCause::unlabelled:
-            return "It moves steadily, but no object is there. The ground truth may lack it.";
-        case ErrorCause::swapped:
-            return "The tracks of two objects were exchanged.";
-        case ErrorCause::track_ended:
-            return "The old track ended and another began.";
-        case ErrorCause::track_left:
-            return "The old track went on, but not on this object.";
-        case ErrorCause::clustered_together:
-            return "One motion cluster has vectors of both (clustering.across, clustering.along).";
-        case ErrorCause::segmented_together:
-            return "Two clusters, but one detection covers both (detection.*).";
-        case ErrorCause::tracked_together:
-            return "Two detections, but one track (tracking.*).";
-        case ErrorCause::clustered_apart:
-            return "Its motion vectors fell into several clusters (clustering.along).";
-        case ErrorCause::segmented_apart:
-            return "One cluster gave several detections (detection.*).";
-    }
-    return "";
 }
 
 }  // namespace eyrie

@@ -73,7 +73,7 @@ struct ErrorEvidence {
 /// A cause and the numbers behind it.
 struct CauseHere {
     ErrorCause cause = ErrorCause::unknown;
-    std::string text;  ///< "2 motion vectors, 6 are needed for a cluster"; may be empty
+    std::string text;  ///< "2 motion vectors, 6 are needed (clustering.min_members)"; may be empty
 };
 
 /// The cause that a detection was rejected for such a reason; `unknown` where it was kept.

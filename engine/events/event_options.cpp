@@ -9,7 +9,7 @@ void describeMotion(EventOptions& options, const ParameterDeclarer& declare) {
         {"s",
          "Speeds and directions are measured over this time. Longer: steadier, but short stops and turns are blurred.",
          ""});
-    declare.real("events.noise", options.noise_px, 0, 10,
+    declare.real("events.noise", options.noise, 0, 10,
                  {"px",
                   "How far boxes stray from their vehicles (standard deviation). What moves no faster than that alone "
                   "could make it seem counts as standing.",

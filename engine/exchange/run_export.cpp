@@ -18,8 +18,11 @@ bool tellsWorld(const std::string& format) {
            });
 }
 
-std::unique_ptr<FrameSource> openedFor(const std::string& format, const RunRecord& run, const OpenVideo& open,
-                                       const std::stop_token& stop) {
+}  // namespace
+
+std::unique_ptr<FrameSource> openVideoFor(const std::string& format, const RunRecord& run, const OpenVideo& open,
+                                          const std::stop_token& stop) {
+    if (!tellsWorld(format)) return nullptr;
     const bool needed = format == kVmtiFormat;
     std::unique_ptr<FrameSource> video;
     try {
@@ -32,19 +35,14 @@ std::unique_ptr<FrameSource> openedFor(const std::string& format, const RunRecor
     return video;
 }
 
-}  // namespace
-
-std::unique_ptr<FrameSource> addWorld(const std::string& format, LabelStream& labels, ProjectFile& project,
-                                      const RunRecord& run, const OpenVideo& open,
-                                      std::optional<std::int64_t> start_utc_us, const std::stop_token& stop) {
-    if (!tellsWorld(format)) return nullptr;
-    std::unique_ptr<FrameSource> video = openedFor(format, run, open, stop);
+void addWorld(LabelStream& labels, const std::string& format, ProjectFile& project, const RunRecord& run,
+              const FrameSource* video, std::optional<std::int64_t> start_utc_us, const std::stop_token& stop) {
+    if (!tellsWorld(format)) return;
     const auto start = videoStartOf(project, run.sequence.id, start_utc_us);
     labels.about.world =
-        trackWorldOf(RunStore(project), run, video.get(), start, stop, readControlPoints(project, run.sequence.id));
+        trackWorldOf(RunStore(project), run, video, start, stop, readControlPoints(project, run.sequence.id));
     if (stop.stop_requested())
         throw Error(ErrorKind::input, run.sequence.path + ": stopped while reading its metadata");
-    return video;
 }
 
 }  // namespace eyrie

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdio>
+#include <cctype>
 
 #include "explain/explanation_steps.h"
 #include "motion/clusters/place_contents.h"
@@ -146,19 +145,6 @@ void tellVerdicts(Story& story, const std::vector<const CornerVerdict*>& corners
 
 }  // namespace
 
-std::string numberText(double value) {
-    char text[32];
-    if (std::abs(value) >= 1000)
-        std::snprintf(text, sizeof text, "%.0f", value);
-    else
-        std::snprintf(text, sizeof text, "%.3g", value);
-    return text;
-}
-
-std::string countText(std::size_t count, const std::string& one, const std::string& many) {
-    return std::to_string(count) + " " + (count == 1 ? one : many);
-}
-
 void Story::pass(const char* stage, const std::string& text, const std::string& parameter) {
     told.steps.push_back({stage, StepVerdict::passed, text, parameter});
 }
@@ -177,6 +163,8 @@ bool Story::decide(const std::string& sentence, const std::string& parameter) {
     told.parameter = parameter;
     if (!parameter.empty()) told.setting = settingOf(options, parameter);
     told.sentence = sentence;
+    if (!told.sentence.empty())
+        told.sentence.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(told.sentence.front())));
     if (!parameter.empty()) told.sentence += ": " + parameter + (told.setting.empty() ? "" : " = " + told.setting);
     told.sentence += ".";
     return true;
@@ -189,9 +177,7 @@ std::string Story::speedText(double px_per_frame) const {
 }
 
 std::string Story::lengthText(double px) const {
-    std::string text = numberText(px) + " px";
-    if (here.gsd_known) text += " (" + numberText(here.metres(px)) + " m)";
-    return text;
+    return pxText(px, here);
 }
 
 bool tellRegistration(Story& story) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "explain/explanation_steps.h"
+#include "motion/clusters/clustering_wording.h"
 #include "motion/clusters/place_contents.h"
 
 namespace eyrie::explaining {
@@ -12,38 +13,33 @@ std::string gapText(const LinkageGap& gap, const Linkage& linkage, const Story& 
            story.speedText(gap.difference) + " (allowed " + numberText(gap.allowed) + ")";
 }
 
+/// How many are linked, and how many make a cluster.
+std::string linkedText(const ClusteringVerdict& verdict) {
+    return countText(verdict.group.size(), "motion vector is", "motion vectors are") + " linked here, " +
+           std::to_string(verdict.needed) + " are needed";
+}
+
 /// Why linked vectors were too few.
 void tellTooFew(Story& story, const ClusteringVerdict& verdict, const MotionClustering& clustering) {
     const FrameMotion& motion = story.evidence.result.motion;
-    const ClusteringTrace& trace = story.evidence.clustering;
     const Linkage linkage = clustering.linkageFor(motion.background_speed_sigma).at(story.evidence.area.centre);
-    const std::size_t linked = verdict.group.size();
-    const std::string needed = std::to_string(verdict.needed) + " are needed";
-    story.fail("clustering", countText(linked, "motion vector is", "motion vectors are") + " linked here, " + needed,
-               trace.needed_parameter);
+    story.fail("clustering", linkedText(verdict), story.evidence.clustering.needed_parameter);
     constexpr double kNear = 10;  // linkage distances
     const LinkageGap gap = clustering.gapOutside(motion, verdict.group);
     if (gap.other >= 0 && gap.distance < kNear)
         story.note("clustering", "the next vector is " + gapText(gap, linkage, story), gap.parameter);
-    if (verdict.refusal == ClusterRefusal::not_linked)
-        story.decide(std::to_string(verdict.here) + " motion vectors lie here, but only " + std::to_string(linked) +
-                         " are linked: the next is " + gapText(gap, linkage, story),
-                     verdict.parameter);
-    else
-        story.decide(countText(linked, "motion vector", "motion vectors") + ", " + needed, verdict.parameter);
+    const bool apart = verdict.refusal == ClusterRefusal::not_linked;
+    story.decide(textOf(verdict, story.here) + (apart ? ": the next is " + gapText(gap, linkage, story) : ""),
+                 verdict.parameter);
 }
 
-/// Why linked vectors that were enough are no cluster.
+/// Why linked vectors are no cluster though there were enough, also before a larger one was split.
 void tellRefused(Story& story, const ClusteringVerdict& verdict) {
-    story.pass("clustering",
-               countText(verdict.group.size(), "motion vector is", "motion vectors are") + " linked here, " +
-                   std::to_string(verdict.needed) + " are needed",
-               story.evidence.clustering.needed_parameter);
-    const std::string size = story.lengthText(verdict.value);
-    const std::string allowed = story.lengthText(verdict.limit) + " are allowed";
-    const bool wide = verdict.refusal == ClusterRefusal::too_wide;
-    story.fail("clustering", "linked vectors are " + size + (wide ? " wide" : " long"), verdict.parameter);
-    story.decide("The vectors linked here are " + size + (wide ? " wide, " : " long, ") + allowed, verdict.parameter);
+    if (verdict.refusal != ClusterRefusal::split_off)
+        story.pass("clustering", linkedText(verdict), story.evidence.clustering.needed_parameter);
+    const std::string text = textOf(verdict, story.here);
+    story.fail("clustering", text, verdict.parameter);
+    story.decide(text, verdict.parameter);
 }
 
 /// Why vectors that lie here are in no cluster.
@@ -56,13 +52,8 @@ void tellNoCluster(Story& story, const std::vector<int>& here, const MotionClust
             return tellTooFew(story, verdict, clustering);
         case ClusterRefusal::too_long:
         case ClusterRefusal::too_wide:
-            return tellRefused(story, verdict);
         case ClusterRefusal::split_off:
-            story.fail("clustering", "left over when a cluster that was too large was split", verdict.parameter);
-            story.decide("The vectors here were left over when a cluster of " + story.lengthText(verdict.value) +
-                             ", more than " + story.lengthText(verdict.limit) + ", was split",
-                         verdict.parameter);
-            return;
+            return tellRefused(story, verdict);
         case ClusterRefusal::not_finite:
         case ClusterRefusal::none:
             break;
@@ -104,8 +95,8 @@ bool tellClusters(Story& story, std::vector<int>& clusters) {
     clusters = clustersAtPlace(area, result.motion, result.clusters);
     const bool by_vectors = story.options.difference.method == MotionMethod::vectors;
     if (clusters.empty() && !by_vectors) {
-        story.fail("clustering", "the difference image shows no moving area here", "motion.method");
-        story.decide("The difference image shows no moving area here", "motion.method");
+        story.fail("clustering", kNoMovingArea, "motion.method");
+        story.decide(kNoMovingArea, "motion.method");
         return false;
     }
     const MotionClustering clustering(story.options.clustering, story.scale);

@@ -4,6 +4,7 @@
 #include "detection/detection_options.h"
 #include "explain/explanation_steps.h"
 #include "removal/outlier_removal.h"
+#include "removal/removal_wording.h"
 
 namespace eyrie::explaining {
 namespace {
@@ -118,12 +119,6 @@ bool tellDetection(Story& story, const std::vector<int>& clusters, std::vector<i
 
 namespace {
 
-std::string supportText(const RemovalVerdict& verdict, const char* where) {
-    const auto count = static_cast<std::size_t>(verdict.value);
-    return countText(count, "motion vector", "motion vectors") + where + ", " + numberText(verdict.limit) +
-           " are needed";
-}
-
 /// What is told of a rejected detection: a step, and the sentence should it decide.
 struct Refusal {
     std::string step;
@@ -131,13 +126,13 @@ struct Refusal {
     std::string parameter;
 };
 
-Refusal refusedAsDuplicate(const Story& story, int index) {
+Refusal refusedAsDuplicate(const Story& story, int index, const RemovalVerdict& verdict) {
     const auto& pairs = story.evidence.removal.duplicates;
     const auto pair =
         std::find_if(pairs.begin(), pairs.end(), [&](const RemovedDuplicate& d) { return d.removed == index; });
     if (pair == pairs.end()) {
-        return {"removed as a duplicate of another detection",
-                "The detection here was removed as a duplicate of another", "duplicates.threshold"};
+        const std::string text = textOf(verdict, story.here);
+        return {text, "The detection here was " + text, "duplicates.threshold"};
     }
     const bool parts = pair->parameter != "duplicates.threshold";
     const std::string text = parts
@@ -149,25 +144,17 @@ Refusal refusedAsDuplicate(const Story& story, int index) {
 }
 
 Refusal refusedBySize(const Story& story, const RemovalVerdict& verdict) {
-    if (verdict.parameter == "outliers.inside_image") {
-        const std::string share = numberText(verdict.value) + " of the box is in the picture";
-        return {share + ", all of it must be", "The detection here reaches beyond the picture: " + share,
-                verdict.parameter};
-    }
-    const auto text = [&](double value) {
-        return verdict.parameter == "outliers.min_area" ? numberText(value) + " px²" : story.lengthText(value);
-    };
-    const std::string size =
-        verdict.parameter.empty()
-            ? std::string("an impossible size")
-            : text(verdict.value) + (verdict.at_most ? ", at most " : ", at least ") + text(verdict.limit);
-    return {"size of the box: " + size, "The detection here has an impossible size: " + size, verdict.parameter};
+    const std::string text = textOf(verdict, story.here);
+    if (verdict.parameter == "outliers.inside_image")
+        return {text, "The detection here reaches beyond the picture: " + text, verdict.parameter};
+    if (text.empty()) return {"an impossible size of the box", "The detection here has an impossible size", {}};
+    return {"size of the box: " + text, "The detection here has an impossible size: " + text, verdict.parameter};
 }
 
 Refusal refusalOf(const Story& story, int index, const RemovalVerdict& verdict) {
     switch (verdict.rejection) {
         case Rejection::duplicate:
-            return refusedAsDuplicate(story, index);
+            return refusedAsDuplicate(story, index, verdict);
         case Rejection::size:
             return refusedBySize(story, verdict);
         case Rejection::outlier:
@@ -175,9 +162,9 @@ Refusal refusalOf(const Story& story, int index, const RemovalVerdict& verdict) 
             break;
     }
     const std::string why = "The detection here was removed as an outlier";
-    if (verdict.parameter.empty()) return {"removed as an outlier", why, {}};
-    return {supportText(verdict, " move with the box"), why + ": " + supportText(verdict, " inside"),
-            verdict.parameter};
+    const std::string text = textOf(verdict, story.here);
+    if (text.empty()) return {"removed as an outlier", why, {}};
+    return {text, why + ": " + text, verdict.parameter};
 }
 
 }  // namespace
@@ -192,8 +179,7 @@ bool tellRemoval(Story& story, std::vector<int>& detections) {
         const Detection& detection = result.detections[static_cast<std::size_t>(index)];
         const RemovalVerdict verdict = whyRemoved(detection, result.motion, story.options.outliers, story.scale);
         if (verdict.rejection == Rejection::none) {
-            if (!verdict.parameter.empty())
-                story.pass("removal", supportText(verdict, " move with the box"), verdict.parameter);
+            if (!verdict.parameter.empty()) story.pass("removal", textOf(verdict, story.here), verdict.parameter);
             if (!std::isnan(detection.probability)) {
                 story.note("removal", "a moving vehicle with a probability of " + numberText(detection.probability) +
                                           ", by this frame alone");

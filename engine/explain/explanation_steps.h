@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/measure_text.h"
 #include "explain/explanation.h"
 
 /// What the parts of explain() share. Not for others.
@@ -14,7 +15,8 @@ struct Story {
     void pass(const char* stage, const std::string& text, const std::string& parameter = {});
     void note(const char* stage, const std::string& text, const std::string& parameter = {});
     void fail(const char* stage, const std::string& text, const std::string& parameter = {});
-    /// The sentence: why nothing was found. `parameter` may be empty. Whether it is the one that is told.
+    /// The sentence: why nothing was found, with a capital. `parameter` may be empty. Whether it is the one that is
+    /// told.
     bool decide(const std::string& sentence, const std::string& parameter);
 
     /// "0.25 px/frame" or, where the scale is known, "0.25 px/frame (1.6 m/s)".
@@ -28,11 +30,6 @@ struct Story {
     Explanation told{};
     bool decided = false;
 };
-
-/// Three significant digits without trailing zeros.
-std::string numberText(double value);
-/// "1 corner", "3 corners".
-std::string countText(std::size_t count, const std::string& one, const std::string& many);
 
 // The stages, in order. Each returns whether the story goes on.
 bool tellRegistration(Story& story);

@@ -7,7 +7,7 @@ void PeerOptions::describe(ParameterVisitor& visitor) {
     declare.integer(
         "peer.gap", gap, 1, 100,
         {"frames", "Time between the pictures of a difference. Larger: slower vehicles, more parallax.", ""});
-    declare.real("peer.blur", blur_px, 0, 20,
+    declare.real("peer.blur", blur, 0, 20,
                  {"px", "Pictures are smoothed by a Gaussian of this deviation first; 0: not at all.", ""});
     declare.real(
         "peer.threshold", threshold, 0, 255,
@@ -18,7 +18,7 @@ void PeerOptions::describe(ParameterVisitor& visitor) {
                   "Areas closer than this are one object. Larger: front and rear of a plain car become one, and so do "
                   "neighbours.",
                   ""});
-    declare.integer("peer.min_area", min_area_px, 1, 100000, {"px²", "Objects of fewer pixels are dropped.", ""});
+    declare.integer("peer.min_area", min_area, 1, 100000, {"px²", "Objects of fewer pixels are dropped.", ""});
     sort.describe(declare);
 }
 

@@ -16,7 +16,7 @@ std::vector<OrientedBox> ThreeFrameBoxes::boxesOf(const cv::Mat& moving) const {
     const int count = cv::connectedComponentsWithStats(joined, labels, facts, centres, 8, CV_32S);
     std::vector<OrientedBox> boxes;
     for (int i = 1; i < count; ++i) {
-        if (facts.at<int>(i, cv::CC_STAT_AREA) < options_.min_area_px) continue;
+        if (facts.at<int>(i, cv::CC_STAT_AREA) < options_.min_area) continue;
         const int width = facts.at<int>(i, cv::CC_STAT_WIDTH);
         const int height = facts.at<int>(i, cv::CC_STAT_HEIGHT);
         const cv::Point2d centre(facts.at<int>(i, cv::CC_STAT_LEFT) + (width - 1) / 2.0,
@@ -29,7 +29,7 @@ std::vector<OrientedBox> ThreeFrameBoxes::boxesOf(const cv::Mat& moving) const {
 std::optional<BoxesOfPicture> ThreeFrameBoxes::next(const Frame& frame, const Registration& registration) {
     if (!frames_.add(frame, registration) || frames_.count() < 2 * options_.gap) return std::nullopt;
     const DifferenceImage difference = threeFrameDifference(frames_.newest(), frames_.past(options_.gap),
-                                                            frames_.past(2 * options_.gap), options_.blur_px);
+                                                            frames_.past(2 * options_.gap), options_.blur);
     const Homography middle_from_newest = frames_.pathTo(options_.gap);
     BoxesOfPicture answer;
     answer.frame = middle_from_newest.to_frame;

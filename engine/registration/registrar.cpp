@@ -178,8 +178,7 @@ std::optional<Registrar::Match> Registrar::registerOnto(const Anchor& anchor, Re
     auto fit = estimator_->refine(points, start);
     const auto inliersOf = [](const std::optional<HomographyFit>& each) { return each ? each->inliers : 0; };
     if (!fit || !estimator_->trustworthy(*fit)) {
-        const auto sampled =
-            estimator_->search(points, MotionModel::homography, options_.homography.inlier_distance_px);
+        const auto sampled = estimator_->search(points, MotionModel::homography, options_.homography.inlier_distance);
         if (sampled) {
             const auto second = estimator_->refine(points, *sampled);
             if (inliersOf(second) > inliersOf(fit)) fit = second;

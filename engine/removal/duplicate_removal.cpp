@@ -22,7 +22,7 @@ double strengthOf(const Detection& a, const Detection& b, const DuplicateRemoval
     if (farApart(a.box, b.box)) return 0;
     if (std::abs(turnBetween(a.box.heading, b.box.heading)) > radiansFromDegrees(options.max_turn_deg)) return 0;
     if (options.compare_speed &&
-        !similarVelocity(a.velocity, b.velocity, options.velocity_floor_px, options.velocity_share))
+        !similarVelocity(a.velocity, b.velocity, options.velocity_floor, options.velocity_share))
         return 0;
     return options.measure == DuplicateMeasure::containment ? containment(a.box, b.box) : overlap(a.box, b.box);
 }
@@ -76,7 +76,7 @@ DuplicateRemovalOptions DuplicateRemovalOptions::thesis() {
     options.threshold = 0.2;
     options.compare_speed = false;
     options.growth_limit = 0;
-    options.parts.enabled = false;
+    options.parts.join_parts = false;
     return options;
 }
 
@@ -101,7 +101,7 @@ void DuplicateRemovalOptions::describe(ParameterVisitor& visitor) {
                  {"°", "Largest difference of the headings of duplicates.", "Teutsch §5.5.1"});
     declare.flag("duplicates.compare_speed", compare_speed,
                  {"", "Only detections that move alike are duplicates.", ""});
-    declare.real("duplicates.velocity_floor", velocity_floor_px, 0, 10,
+    declare.real("duplicates.velocity_floor", velocity_floor, 0, 10,
                  {"px/frame", "Velocities of duplicates may always differ by this.", ""});
     declare.real("duplicates.velocity_share", velocity_share, 0, 1,
                  {"", "Velocities of duplicates may differ by this share of the speed.", ""});

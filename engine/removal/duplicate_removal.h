@@ -28,9 +28,9 @@ struct DuplicateRemovalOptions {
     DuplicateStrategy strategy = DuplicateStrategy::by_detector;
     DuplicateMeasure measure = DuplicateMeasure::containment;
     double threshold = 0.7;
-    double max_turn_deg = 30;         ///< duplicates have similar headings
-    bool compare_speed = true;        ///< … and similar velocities
-    double velocity_floor_px = 0.08;  ///< px/frame
+    double max_turn_deg = 30;      ///< duplicates have similar headings
+    bool compare_speed = true;     ///< … and similar velocities
+    double velocity_floor = 0.08;  ///< px/frame
     double velocity_share = 0.1;
     double growth_limit = 1.5;  ///< a union larger than this many times the larger box is not formed; 0: no limit
     PartJoiningOptions parts;

@@ -47,8 +47,8 @@ std::optional<BrokenLimit> brokenSizeLimit(const OrientedBox& box, const Outlier
     const double shortest = here.px(options.min_length_m);
     const double longest = here.px(options.max_length_m);
     const double widest = here.px(options.max_width_m);
-    if (!std::isfinite(box.area()) || box.area() < options.min_area_px)
-        return BrokenLimit{"outliers.min_area", box.area(), options.min_area_px, false};
+    if (!std::isfinite(box.area()) || box.area() < options.min_area)
+        return BrokenLimit{"outliers.min_area", box.area(), options.min_area, false};
     if (options.inside_image && image.area() > 0 && !whollyInImage(box, image))
         return BrokenLimit{"outliers.inside_image", areaInImage(box, image) / box.area(), 1, false};
     if (box.length < shortest) return BrokenLimit{"outliers.min_length", box.length, shortest, false};
@@ -88,7 +88,7 @@ void OutlierRemovalOptions::describe(ParameterVisitor& visitor) {
                   "Teutsch §5.5.2"});
     declare.flag("outliers.compare_velocity", compare_velocity,
                  {"", "Only vectors that move like the detection count as inside.", ""});
-    declare.real("outliers.min_area", min_area_px, 0, 10000, {"px²", "Smaller boxes are rejected.", "Teutsch §5.4.1"});
+    declare.real("outliers.min_area", min_area, 0, 10000, {"px²", "Smaller boxes are rejected.", "Teutsch §5.4.1"});
     declare.real("outliers.min_length", min_length_m, 0, 100, {"m", "Shorter boxes are rejected; 0: no limit.", ""});
     declare.real("outliers.max_length", max_length_m, 0, 500, {"m", "Longer boxes are rejected; 0: no limit.", ""});
     declare.real("outliers.max_width", max_width_m, 0, 500, {"m", "Wider boxes are rejected; 0: no limit.", ""});

@@ -17,7 +17,7 @@ struct OutlierRemovalOptions {
     int max_min_vectors = 12;         ///< however dense the corners are, that many are enough
     double vector_margin = 1;         ///< vectors up to this far outside count as inside: corners lie on outlines
     bool compare_velocity = true;     ///< only vectors that move like the detection count
-    double min_area_px = 10;          ///< px², smaller boxes are rejected
+    double min_area = 10;             ///< px², smaller boxes are rejected
     double min_length_m = 1.2;        ///< shorter boxes are rejected; 0: no limit
     double max_length_m = 30;         ///< longer boxes are rejected; 0: no limit
     double max_width_m = 10;          ///< wider boxes are rejected; 0: no limit

@@ -92,7 +92,7 @@ std::optional<Joined> unionOfParts(const Detection& a, const Detection& b, const
 
 void PartJoiningOptions::describe(ParameterVisitor& visitor) {
     const ParameterDeclarer declare(visitor, ChainStage::removal);
-    declare.flag("duplicates.join_parts", enabled,
+    declare.flag("duplicates.join_parts", join_parts,
                  {"",
                   "Join detections that move alike one behind the other and fit into one vehicle: front and rear of a "
                   "plain roof.",
@@ -123,7 +123,7 @@ void PartJoiningOptions::describe(ParameterVisitor& visitor) {
 
 std::vector<Detection> joinParts(std::vector<Detection> detections, const FrameMotion& motion,
                                  const PartJoiningOptions& options, const SceneScale& scale, RemovalTrace* trace) {
-    if (!options.enabled) return detections;
+    if (!options.join_parts) return detections;
     const Limits everywhere = Limits::of(options, scale.at(scale.slope.centre()));
     const auto limitsFor = [&](const Detection& a, const Detection& b) {
         return scale.slope.isFlat() ? everywhere : Limits::of(options, scale.at((a.box.centre + b.box.centre) / 2));

@@ -13,7 +13,7 @@ namespace eyrie {
 /// Parameters of joining the parts of one vehicle. Plain roofs carry no corners, so front and rear of a vehicle may
 /// come as two detections that move alike.
 struct PartJoiningOptions {
-    bool enabled = true;
+    bool join_parts = true;
     double part_car_length_m = 5.5;        ///< parts whose union is no longer than a car are joined
     double part_length_m = 2.5;            ///< two parts shorter than this …
     double part_vehicle_length_m = 13;     ///< … are joined up to the length of a bus

@@ -13,8 +13,8 @@ constexpr int kSettling = 12;      ///< frames until the corners are spread as i
 int MotionWindow::reachFor(const IndependentMotionOptions& options, const SceneScale& scale) {
     const int speeds =
         std::max({options.baseline, options.min_age, options.find_slow ? options.slow_baseline : 0}) + kSettling;
-    const int silhouettes = options.silhouettes.enabled ? options.silhouettes.silhouette_frames : 0;
-    const int areas = options.areas.enabled ? 2 * options.areas.gapFrames(scale) : 0;
+    const int silhouettes = options.silhouettes.silhouettes ? options.silhouettes.silhouette_frames : 0;
+    const int areas = options.areas.areas ? 2 * options.areas.gapFrames(scale) : 0;
     return std::max({speeds, silhouettes, areas});
 }
 

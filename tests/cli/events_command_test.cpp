@@ -1,21 +1,9 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <fstream>
-#include <map>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
-#include <sstream>
-
+#include "cli/events_folder.h"
 #include "core/utc_time.h"
-#include "store/project/project_file.h"
 #include "store/project/video_start.h"
 #include "store/review/review_store.h"
-#include "store/runs/result_writer.h"
-#include "store/runs/run_store.h"
-#include "support/places.h"
-#include "support/process.h"
-#include "support/temporary_folder.h"
 
 namespace eyrie::events_command_test {
 namespace {
@@ -25,9 +13,7 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-constexpr int kFrames = 500;
-
-class EventsCommand : public testing::Test {
+class EventsCommand : public test::EventsFolder {
  protected:
     EventsCommand() {
         writeProject("p.eyrie", true, -1);
@@ -35,85 +21,6 @@ class EventsCommand : public testing::Test {
               R"({"eyrie_zones": 1, "zones": [
                   {"name": "gate", "shape": "line", "points": [[300, 100], [300, 300]]},
                   {"name": "yard", "points": [[400, 100], [500, 100], [500, 300], [400, 300]]}]})");
-    }
-    void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
-    std::string at(const std::string& name) const { return (folder_ / name).string(); }
-    std::string textOf(const std::string& name) const {
-        std::stringstream text;
-        text << std::ifstream(folder_ / name).rdbuf();
-        return text.str();
-    }
-    /// Words that begin with "@" are paths in the folder.
-    test::ProcessResult call(std::vector<std::string> arguments) const {
-        for (std::string& word : arguments) {
-            if (word.starts_with('@')) word = at(word.substr(1));
-        }
-        arguments.insert(arguments.begin(), {test::programPath("eyrie-cli"), "events"});
-        return test::runProcess(arguments);
-    }
-    /// At 0.2 m/px and 25 Hz: 1.5 px a frame are 27 km/h. It comes over the left border, drives on to x = 420, stands
-    /// there for seven seconds and is seen until the end. The camera moves by a quarter of a pixel.
-    static double wayAt(int frame) { return frame < 50 ? -75 + 1.5 * 50 : std::min(420.0, -75 + 1.5 * frame); }
-    void writeProject(const std::string& name, bool gsd_known, int failed) const {
-        RunRecord run;
-        run.sequence = {.path = "/nowhere/clip.mp4", .size = {640, 400}, .frame_count = kFrames, .frame_rate_hz = 25};
-        run.last_frame = kFrames - 1;
-        run.scale = {0.2, 25, gsd_known};
-        ProjectFile::create(folder_ / name);
-        ResultWriter writer(folder_ / name, run, {});
-        for (int frame = 0; frame < kFrames; ++frame) {
-            FrameResult result;
-            result.motion.frame = frame;
-            result.motion.time_us = frame * 40000LL;
-            result.motion.image_size = {640, 400};
-            auto& registration = result.motion.registration;
-            registration.state = frame == 0        ? RegistrationState::first
-                                 : frame == failed ? RegistrationState::failed
-                                                   : RegistrationState::registered;
-            registration.current_from_previous.from_frame = frame == 0 ? 0 : frame - 1;
-            registration.current_from_previous.to_frame = frame;
-            if (frame > 0) registration.current_from_previous.matrix(0, 2) = -0.25;
-            if (frame >= 50) {
-                TrackState track;
-                track.id = 5;
-                track.box = {{wayAt(frame) - 0.25 * frame + 20, 200}, 22, 9, 0};
-                track.status = TrackStatus::confirmed;
-                result.tracks.push_back(track);
-            }
-            writer.write(result);
-        }
-        writer.finish(RunState::finished, "");
-    }
-    /// 1 drives to the right, 2 at once to the left beside it, 3 later where 1 was.
-    void writeTraffic() const {
-        RunRecord run;
-        run.sequence = {.path = "/nowhere/clip.mp4", .size = {640, 400}, .frame_count = 200, .frame_rate_hz = 25};
-        run.last_frame = 199;
-        run.scale = {0.2, 25, true};
-        ProjectFile::create(folder_ / "traffic.eyrie");
-        ResultWriter writer(folder_ / "traffic.eyrie", run, {});
-        for (int frame = 0; frame < 200; ++frame) {
-            FrameResult result;
-            result.motion.frame = frame;
-            result.motion.time_us = frame * 40000LL;
-            result.motion.image_size = {640, 400};
-            auto& registration = result.motion.registration;
-            registration.state = frame == 0 ? RegistrationState::first : RegistrationState::registered;
-            registration.current_from_previous.from_frame = std::max(0, frame - 1);
-            registration.current_from_previous.to_frame = frame;
-            const auto add = [&](TrackId id, cv::Point2d at, double heading) {
-                TrackState track;
-                track.id = id;
-                track.box = {at, 22, 9, heading};
-                track.status = TrackStatus::confirmed;
-                result.tracks.push_back(track);
-            };
-            if (frame < 100) add(1, {100 + 2.0 * frame, 200}, 0);
-            if (frame < 100) add(2, {300 - 2.0 * frame, 182}, CV_PI);
-            if (frame >= 100) add(3, {100 + 2.0 * (frame - 100), 200}, 0);
-            writer.write(result);
-        }
-        writer.finish(RunState::finished, "");
     }
     /// Says something about the vehicle in one frame, as if in an earlier run.
     void judge(EventKind kind, int frame, Judgement judgement, const std::string& note) const {
@@ -124,7 +31,7 @@ class EventsCommand : public testing::Test {
         verdict.subject.kind = kind;
         verdict.subject.first_frame = verdict.subject.last_frame = verdict.subject.frame = frame;
         verdict.subject.first_s = verdict.subject.last_s = frame / 25.0;
-        verdict.subject.place = {wayAt(frame) - 0.25 * frame + 20, 200};
+        verdict.subject.place = placeAt(frame);
         verdict.judgement = judgement;
         verdict.note = note;
         verdict.tags = {"lorry"};
@@ -133,7 +40,6 @@ class EventsCommand : public testing::Test {
         verdict.when_utc = "2026-11-21T08:00:00Z";
         store.apply({"Judge", {{std::nullopt, verdict}}, {}});
     }
-    test::TemporaryFolder folder_;
 };
 
 }  // namespace
@@ -399,119 +305,6 @@ TEST_F(EventsCommand, RejectedTracksAreLeftOutAndListedAmongWhatPeopleCorrected)
     };
     EXPECT_THAT(exported({}), AllOf(HasSubstr("\n1,0,"), Not(HasSubstr("\n2,0,")), HasSubstr("1 track rejected")));
     EXPECT_THAT(exported({"--uncorrected"}), AllOf(HasSubstr("\n1,0,"), HasSubstr("\n2,0,")));
-}
-
-TEST_F(EventsCommand, TracksLikeOneAreListedByLikeness) {
-    writeTraffic();
-    const auto result = call({"--project", "@traffic.eyrie", "--like", "1", "--csv", "@like.csv"});
-    EXPECT_EQ(result.exit_code, 0) << result.errors;
-    EXPECT_EQ(result.errors, "");
-    EXPECT_THAT(result.output,
-                StartsWith("track    likeness  path   speed  size   frames          clock\n3        1.00 "));
-    EXPECT_THAT(result.output, HasSubstr("\n2        0.00      0.00   1.00   1.00   0-99            0:00.0\n"));
-    EXPECT_THAT(result.output, HasSubstr("\n2 other tracks, by likeness to track 1\n"));
-    const std::string table = textOf("like.csv");
-    EXPECT_THAT(
-        table,
-        StartsWith("track,first_frame,last_frame,start_s,end_s,likeness,path,speed,size,looks\n3,100,199,4,7.96,1,"));
-    EXPECT_THAT(table, HasSubstr("\n2,0,99,0,3.96,0,0,"));
-}
-
-TEST_F(EventsCommand, WhatCountsForLikenessIsChosen) {
-    writeTraffic();
-    // In size 2 is like 1 as 3 is; in the path it is not.
-    const auto size = call({"--project", "@traffic.eyrie", "--like", "1", "--like-by", "size,speed"});
-    EXPECT_EQ(size.exit_code, 0) << size.errors;
-    EXPECT_EQ(size.errors, "");
-    EXPECT_THAT(size.output, HasSubstr("\n2        1.00 "));
-    const auto path = call({"--project", "@traffic.eyrie", "--like", "1", "--like-by", "path"});
-    EXPECT_THAT(path.output, AllOf(HasSubstr("\n2        0.00 "), Not(HasSubstr("looks"))));
-    const auto wrong = call({"--project", "@traffic.eyrie", "--like", "1", "--like-by", "path,colour"});
-    EXPECT_EQ(wrong.exit_code, 2);
-    EXPECT_THAT(wrong.errors, AllOf(HasSubstr("colour"), HasSubstr("path, speed, size, looks")));
-    EXPECT_EQ(call({"--project", "@traffic.eyrie", "--like-by", "path"}).exit_code, 2) << "like which?";
-}
-
-TEST_F(EventsCommand, PicturesForLooksThatCannotBeReadAreToldAndTheRestCounts) {
-    writeTraffic();
-    const auto result = call(
-        {"--project", "@traffic.eyrie", "--like", "1", "--like-by", "path,speed,size,looks", "--csv", "@like.csv"});
-    EXPECT_EQ(result.exit_code, 0) << result.errors;
-    EXPECT_THAT(result.errors, AllOf(HasSubstr("what vehicles look like does not count, or only in part"),
-                                     HasSubstr("pictures could not be read: "), HasSubstr("clip.mp4")));
-    EXPECT_THAT(result.output, StartsWith("track    likeness  path   speed  size   looks  frames          clock\n"
-                                          "3        1.00 "));
-    EXPECT_THAT(result.output, HasSubstr(" 1.00   1.00   -      0-99 "));
-    EXPECT_THAT(textOf("like.csv"), HasSubstr(",\n2,0,99,")) << "nothing is known of the looks";
-}
-
-TEST_F(EventsCommand, TracksAreComparedByTheirLooksInThePictures) {
-    constexpr int kPictures = 16;
-    std::filesystem::create_directories(folder_ / "frames");
-    const std::map<TrackId, cv::Scalar> paints{{1, {40, 40, 200}}, {2, {200, 60, 40}}, {3, {40, 40, 200}}};
-    const auto placeOf = [](TrackId id, int frame) { return cv::Point(30 + frame, 30 * id); };
-    for (int frame = 0; frame < kPictures; ++frame) {
-        cv::Mat picture(120, 160, CV_8UC3, cv::Scalar::all(110));
-        for (const auto& [id, paint] : paints)
-            cv::rectangle(picture, cv::Rect(placeOf(id, frame) - cv::Point(11, 4), cv::Size(23, 9)), paint, cv::FILLED);
-        cv::imwrite(at("frames/" + std::to_string(100 + frame) + ".png"), picture);
-    }
-    RunRecord run;
-    run.sequence = {.path = at("frames"), .size = {160, 120}, .frame_count = kPictures, .frame_rate_hz = 25};
-    run.last_frame = kPictures - 1;
-    run.scale = {0.2, 25, true};
-    ProjectFile::create(folder_ / "looks.eyrie");
-    {
-        ResultWriter writer(folder_ / "looks.eyrie", run, {});
-        for (int frame = 0; frame < kPictures; ++frame) {
-            FrameResult result;
-            result.motion.frame = frame;
-            result.motion.time_us = frame * 40000LL;
-            result.motion.image_size = {160, 120};
-            auto& registration = result.motion.registration;
-            registration.state = frame == 0 ? RegistrationState::first : RegistrationState::registered;
-            registration.current_from_previous.from_frame = std::max(0, frame - 1);
-            registration.current_from_previous.to_frame = frame;
-            for (const auto& [id, paint] : paints) {
-                TrackState track;
-                track.id = id;
-                track.box = {placeOf(id, frame), 23, 9, 0};
-                track.status = TrackStatus::confirmed;
-                result.tracks.push_back(track);
-            }
-            writer.write(result);
-        }
-        writer.finish(RunState::finished, "");
-    }
-    const auto result = call({"--project", "@looks.eyrie", "--like", "1", "--like-by", "looks", "--csv", "@like.csv"});
-    EXPECT_EQ(result.exit_code, 0) << result.errors;
-    EXPECT_THAT(result.errors, Not(HasSubstr("could not be read")));
-    EXPECT_THAT(result.output, StartsWith("track    likeness  path   speed  size   looks  frames          clock\n3 "));
-    std::map<std::string, double> looks;
-    std::istringstream table(textOf("like.csv"));
-    std::string line;
-    std::getline(table, line);
-    while (std::getline(table, line)) looks[line.substr(0, 1)] = std::stod(line.substr(line.rfind(',') + 1));
-    EXPECT_GT(looks["3"], 0.9) << "of the same red";
-    EXPECT_LT(looks["2"], 0.5) << "it is blue";
-}
-
-TEST_F(EventsCommand, TracksThatAreNotThereAreLikeNone) {
-    writeTraffic();
-    const auto none = call({"--project", "@traffic.eyrie", "--like", "77", "--csv", "@like.csv"});
-    EXPECT_EQ(none.exit_code, 2);
-    EXPECT_THAT(none.errors, HasSubstr("no track 77"));
-    EXPECT_FALSE(std::filesystem::exists(folder_ / "like.csv"));
-    for (const char* wrong : {"1.5", "car", "", "99999999999999999999"}) {
-        EXPECT_EQ(call({"--project", "@traffic.eyrie", "--like", wrong}).exit_code, 2) << wrong;
-    }
-    EXPECT_EQ(call({"--project", "@traffic.eyrie", "--like", "-1"}).exit_code, 2);
-    EXPECT_EQ(call({"--project", "@traffic.eyrie", "--like", "1", "--kind", "stops"}).exit_code, 2)
-        << "what it lists is no events";
-    EXPECT_EQ(call({"--project", "@traffic.eyrie", "--like", "1", "--csv", "@traffic.eyrie"}).exit_code, 4);
-    const auto alone = call({"--project", "@p.eyrie", "--like", "5"});
-    EXPECT_EQ(alone.exit_code, 0);
-    EXPECT_THAT(alone.output, HasSubstr("0 other tracks"));
 }
 
 TEST_F(EventsCommand, EndsAsTheOtherCommandsDo) {

@@ -1,4 +1,5 @@
 #include "correction/corrected_run.h"
+#include "correction/made_corrections.h"
 
 #include <gmock/gmock.h>
 

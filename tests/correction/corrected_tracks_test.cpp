@@ -1,4 +1,5 @@
 #include "correction/corrected_tracks.h"
+#include "correction/made_corrections.h"
 
 #include <gmock/gmock.h>
 

@@ -8,6 +8,8 @@
 #include "correction/drawn_vehicle.h"
 #include "correction/driven_states.h"
 #include "correction/joined_states.h"
+#include "correction/made_corrections.h"
+#include "correction/track_frames.h"
 
 namespace eyrie::corrections_by_hand_test {
 namespace {

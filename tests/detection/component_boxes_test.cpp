@@ -12,7 +12,7 @@ const SceneScale kScale{0.1, 25, true};  // 1 m = 10 px
 /// Every rule off.
 GradientOptions bare() {
     GradientOptions options = GradientOptions::thesis();
-    options.min_box_area_px = 1;
+    options.min_box_area = 1;
     return options;
 }
 
@@ -22,7 +22,7 @@ struct Scene {
 
     std::vector<cv::Rect2d> select(const GradientOptions& options) const {
         cv::Mat labels;
-        const auto regions = findRegions(binary, options.min_box_area_px, labels);
+        const auto regions = findRegions(binary, options.min_box_area, labels);
         return ComponentBoxes(options, kScale).select(regions, labels, vectors);
     }
 };
@@ -128,9 +128,9 @@ TEST(ComponentBoxes, AThinLineIsABoxUnlessItsAreaIsTooSmall) {
     scene.binary(cv::Rect(20, 60, 1, 15)).setTo(255);
     GradientOptions options = bare();
     EXPECT_EQ(scene.select(options).size(), 2U);
-    options.min_box_area_px = 15;
+    options.min_box_area = 15;
     EXPECT_EQ(scene.select(options).size(), 2U);
-    options.min_box_area_px = 16;
+    options.min_box_area = 16;
     EXPECT_EQ(scene.select(options).size(), 0U);
 }
 

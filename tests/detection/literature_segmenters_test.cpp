@@ -221,7 +221,7 @@ TEST(RelativeConnectivity, CarsAreScaledToTheirLength) {
     DetectionOptions options;
     options.method = DetectionMethod::relative_connectivity;
     const auto lines = [&](double car_length_px) {
-        options.relative_connectivity.car_length_px = car_length_px;
+        options.relative_connectivity.car_length = car_length_px;
         return layerOf(options, roi, TraceLayer::bright_lines);
     };
     const cv::Mat as_it_is = lines(0);

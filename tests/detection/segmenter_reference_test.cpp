@@ -231,7 +231,7 @@ TEST(SegmenterReference, RelativeConnectivityStepByStep) {
     const MotionRoi roi = cutArea();
     // A car of 4.6 m is 46 px long: about half that, as it is, and half more.
     for (const double factor : {0.513, 1.0, 1.493}) {
-        options.relative_connectivity.car_length_px = 46 * factor;
+        options.relative_connectivity.car_length = 46 * factor;
         const auto layers = layersOf(options, roi);
         const cv::Size size(cvRound(factor * roi.image.cols), cvRound(factor * roi.image.rows));
         cv::Mat image = roi.image, inside = roi.inside;
@@ -272,12 +272,12 @@ TEST(SegmenterReference, RelativeConnectivityStepByStep) {
         expectSame(layers.at(TraceLayer::fused), fused >= 128, "fused");
     }
     // Enlarged and reduced eight times at most.
-    options.relative_connectivity.car_length_px = 200;
+    options.relative_connectivity.car_length = 200;
     const SceneScale coarse{1, 25, true};
     DetectionTrace trace;
     makeDetector(options, coarse)->detect(roi, &trace);
     const cv::Mat eight_times = trace.layers.at(1).image;
-    options.relative_connectivity.car_length_px = 4.6 * 8;
+    options.relative_connectivity.car_length = 4.6 * 8;
     trace = {};
     makeDetector(options, coarse)->detect(roi, &trace);
     expectSame(trace.layers.at(1).image, eight_times, "eight times");
@@ -384,7 +384,7 @@ TEST(SegmenterReference, ComponentsTellWhatKeptOrDroppedThem) {
     GradientOptions options = GradientOptions::thesis();
     options.need_support = true;
     options.support_share = 0.3;
-    options.min_box_area_px = 60;
+    options.min_box_area = 60;
     const ComponentBoxes boxes(options, kTenToAMetre);
     cv::Mat binary = cv::Mat::zeros(60, 60, CV_8UC1);
     binary(cv::Rect(10, 10, 10, 8)).setTo(255);
@@ -425,7 +425,7 @@ TEST(SegmenterReference, ComponentsTellWhatKeptOrDroppedThem) {
 
 TEST(SegmenterReference, JoinedBoxesFitIntoOneVehicleOfAtLeastFourPixels) {
     GradientOptions options = GradientOptions::thesis();
-    options.min_box_area_px = 1;
+    options.min_box_area = 1;
     options.join_components = true;
     options.vehicle_length_m = 3;  // 30 px
     options.vehicle_width_m = 1;   // 10 px

@@ -151,7 +151,7 @@ TEST_F(Causes, aMissWithTooFewMotionVectors) {
     addVectors(stored[20], 2, 50);
     const auto miss = missedCar();
     EXPECT_EQ(miss.cause, ErrorCause::too_few_vectors);
-    EXPECT_EQ(miss.text, "2 motion vectors, 3 make a cluster (clustering.min_members)");
+    EXPECT_EQ(miss.text, "2 motion vectors, 3 are needed (clustering.min_members)");
 }
 
 TEST_F(Causes, aMissWhoseMotionVectorsWereNotLinked) {
@@ -160,7 +160,7 @@ TEST_F(Causes, aMissWhoseMotionVectorsWereNotLinked) {
         if (vector.id > 1) vector.velocity.x += 0.5F * static_cast<float>(vector.id);
     const auto miss = missedCar();
     EXPECT_EQ(miss.cause, ErrorCause::not_clustered);
-    EXPECT_EQ(miss.text, "4 motion vectors, but only 2 are linked (clustering.velocity_share)");
+    EXPECT_EQ(miss.text, "4 motion vectors lie here, but only 2 are linked (clustering.velocity_share)");
 }
 
 TEST_F(Causes, aMissThatTheDetectorMade) {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -34,6 +35,14 @@ inline DiagnosedError missOf(DiagnosisSource source, FrameIndex frame, const Ori
                                 {truth, found, input, matches, evaluation}, {});
     EXPECT_EQ(errors.size(), 1U);
     return errors.empty() ? DiagnosedError{} : errors.front();
+}
+
+/// What was compared, as the list of errors words it, without the parameter and its first letter: a sentence may begin
+/// with it.
+inline std::string comparisonIn(const DiagnosedError& error) {
+    const std::string text = error.text.substr(0, error.text.rfind(" ("));
+    EXPECT_GT(text.size(), 1U);
+    return text.empty() ? text : text.substr(1);
 }
 
 /// A run over a small drawn scene, kept in memory, with parameters that keep its first vehicle from being found.

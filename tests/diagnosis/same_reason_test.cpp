@@ -25,7 +25,7 @@ TEST(SameReason, WhyAndTheCauseOfAMissNameTheSameParameterOfClustering) {
         {"too far apart",
          [](auto& o) {
              o.along_m = o.across_m = 0.02;
-             o.min_distance_px = o.roof_length_m = 0;
+             o.min_distance = o.roof_length_m = 0;
          },
          "", ErrorCause::not_clustered},
         {"too long", [](auto& o) { o.max_length_m = 0.5; }, "clustering.max_length", ErrorCause::not_clustered},
@@ -44,6 +44,7 @@ TEST(SameReason, WhyAndTheCauseOfAMissNameTheSameParameterOfClustering) {
             EXPECT_EQ(told.parameter, hindrance.parameter) << told.sentence;
         }
         EXPECT_EQ(miss.cause, hindrance.cause) << miss.text;
+        EXPECT_THAT(told.sentence, HasSubstr(test::comparisonIn(miss))) << "one wording for both";
     }
 }
 

@@ -22,7 +22,7 @@ ChainOptions sizesAlone() {
     ChainOptions options;
     options.outliers.min_vectors = 0;
     options.outliers.min_density_share = 0;
-    options.outliers.min_area_px = 0;
+    options.outliers.min_area = 0;
     options.outliers.min_length_m = 0;
     options.outliers.max_length_m = 0;
     options.outliers.max_width_m = 0;
@@ -51,7 +51,7 @@ std::string named(const std::string& parameter) {
 TEST(SameRejection, ADetectorThatPutsNoBoxThere) {
     ChainOptions options;
     options.detection.method = DetectionMethod::gradient;
-    options.detection.gradient.min_box_area_px = 10'000;
+    options.detection.gradient.min_box_area = 10'000;
     options.detection.gradient.fall_back = false;
     HinderedRun run(options);
     const Explanation told = run.explanation();
@@ -90,7 +90,7 @@ TEST(SameRejection, WhatRemovalRejects) {
     };
     const std::vector<Refusal> refusals{
         with(Rejection::outlier, "outliers.min_vectors", {}, [](auto& o) { o.min_vectors = 500; }),
-        with(Rejection::size, "outliers.min_area", sizesAlone(), [](auto& o) { o.min_area_px = 10'000; }),
+        with(Rejection::size, "outliers.min_area", sizesAlone(), [](auto& o) { o.min_area = 10'000; }),
         with(Rejection::size, "outliers.min_length", sizesAlone(), [](auto& o) { o.min_length_m = 50; }),
         with(Rejection::size, "outliers.max_length", sizesAlone(), [](auto& o) { o.max_length_m = 0.2; }),
         with(Rejection::size, "outliers.max_width", sizesAlone(), [](auto& o) { o.max_width_m = 0.2; }),
@@ -213,6 +213,7 @@ TEST_F(HandMadeFrame, EveryRejectionHasOneCause) {
         // Which of the rules for duplicates it was, a run does not store.
         if (rejection != Rejection::duplicate) {
             EXPECT_THAT(error.text, HasSubstr(named(told.parameter)));
+            EXPECT_THAT(told.sentence, HasSubstr(test::comparisonIn(error))) << "one wording for both";
         }
     }
 }

@@ -34,9 +34,12 @@ class RunExport : public testing::Test {
             throw Error(ErrorKind::input, "the video is gone");
         };
     }
+    /// As both programs do before they write.
     std::unique_ptr<FrameSource> world(const std::string& format, const OpenVideo& open,
                                        const std::stop_token& stop = {}) {
-        return addWorld(format, labels_, project_, run_, open, {}, stop);
+        auto video = openVideoFor(format, run_, open, stop);
+        addWorld(labels_, format, project_, run_, video.get(), {}, stop);
+        return video;
     }
 
     /// What is thrown; empty where nothing is.

@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "explain/explanation_steps.h"
-
 namespace eyrie::explanation_test {
 namespace {
 
@@ -187,7 +185,7 @@ TEST(Explanation, vectorsThatTheLinkageKeepsApart) {
     const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
     EXPECT_EQ(told.parameter, "clustering.min_distance");  // 1.0 m are 4 px, and so is the floor
     ChainOptions no_floor = plainOptions();
-    no_floor.clustering.min_distance_px = 1;
+    no_floor.clustering.min_distance = 1;
     EXPECT_EQ(explained(evidence, no_floor, scaleOfTests()).parameter, "clustering.across");
     EXPECT_THAT(told.sentence, HasSubstr("3 motion vectors lie here, but only 2 are linked"));
     // Near enough, but half as fast: a difference of 1 px/frame, where 12 % of the mean of 1.5 are allowed.
@@ -248,7 +246,7 @@ TEST(Explanation, detectionThatReachesBeyondThePicture) {
     options.outliers.inside_image = true;
     const Explanation told = explained(evidence, options, scaleOfTests());
     EXPECT_EQ(told.parameter, "outliers.inside_image");
-    EXPECT_THAT(told.sentence, HasSubstr("reaches beyond the picture: 0.694 of the box is in the picture"));
+    EXPECT_THAT(told.sentence, HasSubstr("reaches beyond the picture: 69.4 % of the box is in the picture"));
 }
 
 TEST(Explanation, duplicateNamesTheOverlapThatDecided) {
@@ -435,13 +433,6 @@ TEST(Explanation, whatSpeaksForATrackAndAgainstItIsTold) {
     evidence.judged[7].score = 0.01;
     EXPECT_EQ(stepWith("probability of 0.01, at least").verdict, StepVerdict::failed);
     EXPECT_FALSE(stepWith("detected in 90 % of its frames").text.empty());
-}
-
-TEST(Explanation, numbersArePlain) {
-    EXPECT_EQ(explaining::numberText(0.1234), "0.123");
-    EXPECT_EQ(explaining::numberText(12345.6), "12346");
-    EXPECT_EQ(explaining::numberText(2), "2");
-    EXPECT_EQ(explaining::countText(1, "corner", "corners"), "1 corner");
 }
 
 }  // namespace

@@ -157,7 +157,7 @@ TEST(MotionWindow, reachesAsFarBackAsAreasLook) {
     // Nothing but areas finds anything here, and nothing but they looks back as far.
     IndependentMotionOptions options;
     options.sigma_factor = 1e6;
-    options.silhouettes.enabled = false;
+    options.silhouettes.silhouettes = false;
     options.areas.area_few_corners = options.areas.area_max_corners = 1e6;
     options.areas.area_gap_s = 14 / source.scale.frame_rate_hz;
     const FrameIndex frame = 45;

@@ -10,6 +10,7 @@
 #include "core/geometry/homography_jacobian.h"
 #include "events/driven_tracks.h"
 #include "ground/followed_pose.h"
+#include "ground/footage_of_view.h"
 #include "ground/ground_mosaic.h"
 #include "ground/place_history.h"
 #include "ground/track_likeness.h"
@@ -22,16 +23,6 @@ using testing::ElementsAre;
 using testing::SizeIs;
 
 using View = std::function<cv::Matx33d(double)>;
-
-Footage footageOf(const View& view, int last, int broken_at = -1) {
-    std::vector<Homography> steps = test::stepsOf(view, last);
-    if (broken_at > 0) steps.erase(steps.begin() + broken_at - 1);
-    Footage footage;
-    footage.camera = CameraMotion(steps);
-    footage.image_size = {200, 120};
-    footage.last_frame = last;
-    return footage;
-}
 
 cv::Matx33d still(double) {
     return cv::Matx33d::eye();
@@ -76,7 +67,7 @@ TEST(GroundByHand, FramesThatAreTooUnlikeAreLaidOnANearerOneThatIsHalfAsMuchEnla
         const double c = scale * std::cos(turn), s = scale * std::sin(turn);
         return cv::Matx33d(c, -s, 100, s, c, 60, 0, 0, 1);
     };
-    const GroundSheets sheets(footageOf(view, 9), 0);
+    const GroundSheets sheets(test::footageOf(view, 9), 0);
     EXPECT_EQ(sheets.count(), 1);
     const cv::Point2d middle(99.5, 59.5);
     const double expected[] = {1,          1.1,         1.21,         1.331,         1.4641,
@@ -100,7 +91,7 @@ TEST(GroundByHand, FramesThatAreTooUnlikeAreLaidOnANearerOneThatIsHalfAsMuchEnla
 TEST(GroundByHand, AMosaicTakesFramesAsTheGroundChanges) {
     // 10 px a frame; 8 % of the diagonal of 233 px are 18.7, half as much again 28.
     const auto sheets = std::make_shared<const GroundSheets>(
-        footageOf([](double frame) { return cv::Matx33d(1, 0, -10 * frame, 0, 1, 0, 0, 0, 1); }, 20), 0);
+        test::footageOf([](double frame) { return cv::Matx33d(1, 0, -10 * frame, 0, 1, 0, 0, 0, 1); }, 20), 0);
     EXPECT_THAT(GroundMosaic(sheets, {.wanted_frames = 11}).frames(),
                 ElementsAre(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20));
     EXPECT_THAT(GroundMosaic(sheets, {.wanted_frames = 10}).frames(), ElementsAre(0, 3, 6, 9, 12, 15, 18, 20));
@@ -108,7 +99,7 @@ TEST(GroundByHand, AMosaicTakesFramesAsTheGroundChanges) {
 
 TEST(GroundByHand, APictureCountsLessTowardsItsBorder) {
     // Over 6 % of 120 px, 7.2: the first pixel counts 1 / 7.2, the fourth 4 / 7.2, from the eighth on all.
-    const auto sheets = std::make_shared<const GroundSheets>(footageOf(still, 1), 0);
+    const auto sheets = std::make_shared<const GroundSheets>(test::footageOf(still, 1), 0);
     GroundMosaic mosaic(sheets, {.colour = false});
     mosaic.paint(even(0, 100));
     const cv::Mat picture = mosaic.sheets()[0].picture;
@@ -123,7 +114,7 @@ TEST(GroundByHand, APictureCountsLessTowardsItsBorder) {
 }
 
 TEST(GroundByHand, AMosaicIsAsCoarseAsItsPixelsAskFor) {
-    const auto sheets = std::make_shared<const GroundSheets>(footageOf(still, 1), 0);
+    const auto sheets = std::make_shared<const GroundSheets>(test::footageOf(still, 1), 0);
     GroundMosaic mosaic(sheets, {.max_pixels = 6000, .colour = false});  // a quarter of 24,000
     EXPECT_EQ(mosaic.sheets()[0].picture.size(), cv::Size(100, 60));
     EXPECT_NEAR(mosaic.sheets()[0].px_per_unit, 0.5, 1e-12);
@@ -138,7 +129,7 @@ TEST(GroundByHand, AMosaicIsAsCoarseAsItsPixelsAskFor) {
 }
 
 TEST(GroundByHand, OnlyWantedSheetsGetPixels) {
-    const auto sheets = std::make_shared<const GroundSheets>(footageOf(still, 9, 5), 0);
+    const auto sheets = std::make_shared<const GroundSheets>(test::footageOf(still, 9, 5), 0);
     ASSERT_EQ(sheets->count(), 2);
     const GroundMosaic mosaic(sheets, {.max_pixels = 24'000, .wanted_sheets = {1}});
     EXPECT_EQ(mosaic.sheets()[0].picture.size(), cv::Size(1, 1));
@@ -148,7 +139,7 @@ TEST(GroundByHand, OnlyWantedSheetsGetPixels) {
 }
 
 TEST(GroundByHand, WhoComesBackPassesAPlaceTwice) {
-    const GroundSheets sheets(footageOf(still, 9), 0);
+    const GroundSheets sheets(test::footageOf(still, 9), 0);
     const EventTrack returning = trackThrough(2, {{60, 60}, {100, 60}, {100, 60}, {60, 60}, {60, 60}});
     const EventTrack also = trackThrough(1, {{62, 60}, {62, 60}});
     const PlaceHistory history = placeHistory(sheets, {returning, also}, 0, {60, 60}, 1);
@@ -162,7 +153,7 @@ TEST(GroundByHand, TheMarginIsMeasuredOnTheSheet) {
         const double zoom = 1 + 0.0125 * frame;
         return cv::Matx33d(zoom, 0, 0, 0, zoom, 0, 0, 0, 1);
     };
-    const GroundSheets sheets(footageOf(view, 50), 0);
+    const GroundSheets sheets(test::footageOf(view, 50), 0);
     const std::vector<EventTrack> car = {{1, {{40, {{75, 60}, 15, 9, 0}}}}};
     const auto isThere = [&](cv::Point2d place) { return !placeHistory(sheets, car, 0, place, 3).passed.empty(); };
     EXPECT_TRUE(isThere({57.5, 40}));
@@ -172,7 +163,7 @@ TEST(GroundByHand, TheMarginIsMeasuredOnTheSheet) {
 }
 
 TEST(GroundByHand, OfPointsNearEachOtherAWayHasOne) {
-    const GroundSheets sheets(footageOf(still, 9), 0);
+    const GroundSheets sheets(test::footageOf(still, 9), 0);
     const EventTrack track = trackThrough(3, {{0, 60}, {3, 60}, {5, 60}, {8, 64}, {9, 60}});
     const auto paths = pathsOn(sheets, {track}, 5);
     std::vector<FrameIndex> frames;

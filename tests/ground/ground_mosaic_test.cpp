@@ -8,6 +8,7 @@
 #include "annotation/scenes.h"
 #include "core/error.h"
 #include "core/geometry/homography_jacobian.h"
+#include "ground/footage_of_view.h"
 #include "ground/place_history.h"
 
 namespace eyrie::ground_mosaic_test {
@@ -18,16 +19,6 @@ constexpr int kLast = 120;
 /// A ground with a smooth pattern of its own at every place.
 double brightnessOf(cv::Point2d ground) {
     return 128 + 60 * std::sin(ground.x / 17) * std::cos(ground.y / 23) + 40 * std::sin((ground.x + ground.y) / 61);
-}
-
-Footage flightOver(const std::function<cv::Matx33d(double)>& view, int last, int broken_at = -1) {
-    std::vector<Homography> steps = test::stepsOf(view, last);
-    if (broken_at > 0) steps.erase(steps.begin() + broken_at - 1);
-    Footage footage;
-    footage.camera = CameraMotion(steps);
-    footage.image_size = {200, 120};
-    footage.last_frame = last;
-    return footage;
 }
 
 Frame filmed(const std::function<cv::Matx33d(double)>& view, FrameIndex index) {
@@ -59,7 +50,7 @@ EventTrack driveAlong(TrackId id, double y, double speed, int first, int last) {
 }  // namespace
 
 TEST(GroundMosaic, ShowsTheGroundWhereItIs) {
-    const auto sheets = std::make_shared<const GroundSheets>(flightOver(test::flyingView, kLast), 0);
+    const auto sheets = std::make_shared<const GroundSheets>(test::footageOf(test::flyingView, kLast), 0);
     const GroundMosaic mosaic = painted(sheets, {.colour = false});
     EXPECT_LT(mosaic.frames().size(), 40U);
     ASSERT_EQ(mosaic.sheets().size(), 1U);
@@ -82,7 +73,7 @@ TEST(GroundMosaic, ShowsTheGroundWhereItIs) {
 }
 
 TEST(GroundMosaic, AllThatWasSeenIsPainted) {
-    const auto sheets = std::make_shared<const GroundSheets>(flightOver(test::flyingView, kLast), 0);
+    const auto sheets = std::make_shared<const GroundSheets>(test::footageOf(test::flyingView, kLast), 0);
     const GroundMosaic mosaic = painted(sheets, {.colour = false});
     const MosaicSheet& sheet = mosaic.sheets().front();
     cv::Mat seen = cv::Mat::zeros(sheet.painted.size(), CV_8UC1);
@@ -98,7 +89,7 @@ TEST(GroundMosaic, AllThatWasSeenIsPainted) {
 
 TEST(GroundMosaic, StaysWithinItsPixelsAndFramesHoweverFarItFlies) {
     const auto view = [](double frame) { return cv::Matx33d(1, 0, -40 * frame, 0, 1, 0, 0, 0, 1); };
-    const auto sheets = std::make_shared<const GroundSheets>(flightOver(view, 3000, 1500), 0);
+    const auto sheets = std::make_shared<const GroundSheets>(test::footageOf(view, 3000, 1500), 0);
     ASSERT_EQ(sheets->count(), 2);
     const GroundMosaic mosaic(sheets, {.max_pixels = 100'000, .wanted_frames = 50});
     std::size_t pixels = 0;
@@ -113,7 +104,7 @@ TEST(GroundMosaic, StaysWithinItsPixelsAndFramesHoweverFarItFlies) {
 TEST(GroundMosaic, EverySheetHasItsFirstAndLastFrameHoweverManyThereAre) {
     std::vector<Homography> steps = test::stepsOf(test::flyingView, 100);
     std::erase_if(steps, [](const Homography& step) { return step.to_frame % 5 == 0; });
-    Footage footage = flightOver(test::flyingView, 100);
+    Footage footage = test::footageOf(test::flyingView, 100);
     footage.camera = CameraMotion(steps);
     const auto sheets = std::make_shared<const GroundSheets>(footage, 0);
     ASSERT_EQ(sheets->count(), 21);
@@ -122,7 +113,7 @@ TEST(GroundMosaic, EverySheetHasItsFirstAndLastFrameHoweverManyThereAre) {
 }
 
 TEST(GroundMosaic, RefusesPicturesOfAnotherVideo) {
-    const auto sheets = std::make_shared<const GroundSheets>(flightOver(test::flyingView, 10), 0);
+    const auto sheets = std::make_shared<const GroundSheets>(test::footageOf(test::flyingView, 10), 0);
     GroundMosaic mosaic(sheets);
     Frame other;
     other.index = 3;
@@ -135,7 +126,7 @@ TEST(GroundMosaic, RefusesPicturesOfAnotherVideo) {
 
 TEST(GroundMosaic, AStandingPictureStaysAsItIsInItsColours) {
     const auto standing = [](double) { return cv::Matx33d::eye(); };
-    const auto sheets = std::make_shared<const GroundSheets>(flightOver(standing, 20), 0);
+    const auto sheets = std::make_shared<const GroundSheets>(test::footageOf(standing, 20), 0);
     GroundMosaic coloured(sheets);
     GroundMosaic grey(sheets, {.colour = false});
     Frame frame = filmed(standing, 0);
@@ -160,7 +151,7 @@ TEST(GroundMosaic, NoSideIsLongerThanPicturesMayBe) {
         const auto view = [&](double frame) {
             return cv::Matx33d(1, 0, 50 * way.x * frame, 0, 1, 50 * way.y * frame, 0, 0, 1);
         };
-        const auto sheets = std::make_shared<const GroundSheets>(flightOver(view, 400), 0);
+        const auto sheets = std::make_shared<const GroundSheets>(test::footageOf(view, 400), 0);
         ASSERT_EQ(sheets->count(), 1);
         const cv::Mat picture =
             GroundMosaic(sheets, {.max_pixels = 1'000'000'000, .colour = false}).sheets()[0].picture;
@@ -171,7 +162,7 @@ TEST(GroundMosaic, NoSideIsLongerThanPicturesMayBe) {
 
 TEST(PlaceHistory, TellsWhenAPlaceWasSeenAndWhoCrossedIt) {
     const auto view = [](double frame) { return cv::Matx33d(1, 0, -2 * frame, 0, 1, 0, 0, 0, 1); };
-    Footage footage = flightOver(view, 200);
+    Footage footage = test::footageOf(view, 200);
     const GroundSheets sheets(footage, 0);
     // 150 is in the picture until it has gone left by 150 px.
     const PlaceHistory alone = placeHistory(sheets, {}, 0, {150, 60}, 2);
@@ -185,7 +176,7 @@ TEST(PlaceHistory, TellsWhenAPlaceWasSeenAndWhoCrossedIt) {
 }
 
 TEST(PlaceHistory, WhoCrossesAPlaceIsNamedHoweverFastAndHoweverTheCameraMoves) {
-    const GroundSheets sheets(flightOver(test::flyingView, 60), 0);
+    const GroundSheets sheets(test::footageOf(test::flyingView, 60), 0);
     const cv::Point2d place(60, 100);
     const std::vector<EventTrack> tracks{driveAlong(1, 100, 2, 0, 60),   // over it
                                          driveAlong(2, 130, 2, 0, 60),   // past it
@@ -205,7 +196,7 @@ TEST(PlaceHistory, WhoCrossesIsAsWideAsOnTheGroundWhateverTheZoom) {
         const double zoom = 1 + 0.0125 * frame;
         return cv::Matx33d(zoom, 0, 0, 0, zoom, 0, 0, 0, 1);
     };
-    const GroundSheets sheets(flightOver(view, 50), 0);
+    const GroundSheets sheets(test::footageOf(view, 50), 0);
     const auto crosses = [&](double beside) {
         EventTrack fast{1, {}};  // 10 by 10; at 50 in frame 40 and at 75 in the next
         for (int i = 38; i <= 42; ++i)
@@ -217,7 +208,7 @@ TEST(PlaceHistory, WhoCrossesIsAsWideAsOnTheGroundWhateverTheZoom) {
 }
 
 TEST(PlaceHistory, WaysLieOnTheSheet) {
-    const GroundSheets sheets(flightOver(test::flyingView, 60), 0);
+    const GroundSheets sheets(test::footageOf(test::flyingView, 60), 0);
     const auto sheet_paths = pathsOn(sheets, {driveAlong(7, 50, 2, 0, 60)}, 5);
     ASSERT_EQ(sheet_paths.size(), 1U);
     const std::vector<SheetPath>& paths = sheet_paths[0];
@@ -231,7 +222,7 @@ TEST(PlaceHistory, WaysLieOnTheSheet) {
         EXPECT_NEAR(ground.x, 2 * point.frame, 1e-6);
     }
     // Where the ground begins anew, so do the ways.
-    const GroundSheets two(flightOver(test::flyingView, 60, 30), 0);
+    const GroundSheets two(test::footageOf(test::flyingView, 60, 30), 0);
     const auto of_two = pathsOn(two, {driveAlong(7, 50, 2, 0, 60), driveAlong(8, 70, 2, 40, 60)}, 5);
     ASSERT_EQ(of_two.size(), 2U);
     ASSERT_EQ(of_two[0].size(), 1U);

@@ -121,4 +121,15 @@ TEST(TestedParameters, eachIsNamedOrSetInATest) {
     }
 }
 
+// Who reads a preset finds the field, and the other way round. px and frames are no part of a name.
+TEST(TestedParameters, eachIsCalledLikeItsFieldButForTheUnit) {
+    const std::set<std::string> units{"", "_m", "_m2", "_m_s", "_m_s2", "_kmh", "_s", "_deg", "_sigmas"};
+    for (const auto& [name, parameter] : declaredParameters()) {
+        const std::string own = name.substr(name.find('.') + 1);
+        const bool alike = parameter.field.compare(0, own.size(), own) == 0;
+        EXPECT_TRUE(alike && units.count(parameter.field.substr(own.size())) > 0)
+            << "the field of " << name << " is called " << parameter.field;
+    }
+}
+
 }  // namespace eyrie::tested_parameters_test

@@ -17,7 +17,7 @@ int movingWith(const std::string& name, const std::string& value, const std::vec
     DifferenceOptions options;
     options.method = MotionMethod::two_frame_difference;
     options.gap = 1;
-    options.blur_px = 0;
+    options.blur = 0;
     options.min_contrast = 10;
     options.opening_m = options.closing_m = 0;
     options.min_area_px = 1;

@@ -18,7 +18,7 @@ int picturesUntilSeen(const IndependentMotionOptions& options, double frame_rate
 }
 
 IndependentMotionOptions withoutShadows(IndependentMotionOptions options = {}) {
-    options.shadow.enabled = false;  // flat frames are nothing but shadow or nothing but ground
+    options.shadow.shadow_test = false;  // flat frames are nothing but shadow or nothing but ground
     return options;
 }
 

@@ -23,7 +23,7 @@ const SceneScale kScale{0.3, 25, true};
 
 IndependentMotionOptions plain() {
     IndependentMotionOptions options;
-    options.shadow.enabled = false;  // flat frames are nothing but shadow or nothing but ground
+    options.shadow.shadow_test = false;  // flat frames are nothing but shadow or nothing but ground
     return options;
 }
 
@@ -333,7 +333,7 @@ TEST(IndependentMotion, LocalBackgroundTakesOutParallax) {
     std::map<std::string, std::size_t> found;
     for (const std::string setting : {"off", "on", "coarse", "crowded"}) {
         options.local_background = {};
-        options.local_background.enabled = setting != "off";
+        options.local_background.local_background = setting != "off";
         if (setting == "coarse") options.local_background.local_background_cell_m = 200;  // 667 px
         if (setting == "crowded") options.local_background.local_background_min_corners = 1000;
         MovingPatch roof{{60, 60}, {0.3, 0}, 100, 100, 200};
@@ -359,11 +359,11 @@ TEST(IndependentMotionOptions, ThesisUsesOneThresholdAfterFiveFrames) {
     EXPECT_FALSE(options.find_slow);
     EXPECT_EQ(options.sigma_factor, 0);
     EXPECT_EQ(options.max_speed_m_s, 0);
-    EXPECT_FALSE(options.shadow.enabled);
-    EXPECT_FALSE(options.silhouettes.enabled);
-    EXPECT_FALSE(options.areas.enabled);
-    EXPECT_FALSE(options.parallax.enabled);
-    EXPECT_FALSE(options.local_background.enabled);
+    EXPECT_FALSE(options.shadow.shadow_test);
+    EXPECT_FALSE(options.silhouettes.silhouettes);
+    EXPECT_FALSE(options.areas.areas);
+    EXPECT_FALSE(options.parallax.parallax_test);
+    EXPECT_FALSE(options.local_background.local_background);
     MovingCorners scene({{{300, 200}, {0.9, 0.5}}}, 0.02);
     IndependentMotion motion(options, kScale);
     EXPECT_EQ(after(motion, scene, 12).motion_vectors.size(), 24U);

@@ -8,7 +8,7 @@ namespace {
 /// Cells of 30 px in a picture of 100 × 70 px: four across, three down.
 LocalBackground withCells(int min_corners) {
     LocalBackgroundOptions options;
-    options.enabled = true;
+    options.local_background = true;
     options.local_background_cell_m = 9;
     options.local_background_min_corners = min_corners;
     LocalBackground background(options, {0.3, 25, true});

@@ -255,7 +255,7 @@ TEST(MotionClustering, TellsWhichLimitKeepsVectorsApart) {
     EXPECT_NEAR(apart.gap.aside, 6, 1e-6);
     EXPECT_EQ(apart.parameter, "clustering.min_distance");
     MotionClusteringOptions no_floor;
-    no_floor.min_distance_px = 1;
+    no_floor.min_distance = 1;
     EXPECT_EQ(verdictBy(no_floor).parameter, "clustering.across");
     motion.motion_vectors[2] = {3, {100, 100}, {1, 0}, 9};
     EXPECT_EQ(verdictBy({}).parameter, "clustering.velocity_share");

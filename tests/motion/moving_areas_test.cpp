@@ -183,7 +183,7 @@ TEST(MovingAreas, AreForgottenAtACut) {
         areas.add({index, index * 40000, scene.draw(index), {}}, registration);
     }
     EXPECT_THAT(areas.infer(starved(scene), [](cv::Point2d) { return 0.1; }), IsEmpty());
-    MovingAreas off({.enabled = false}, kScale);
+    MovingAreas off({.areas = false}, kScale);
     off.add({0, 0, scene.draw(0), {}}, panned(scene, 0));
     EXPECT_THAT(off.infer(starved(scene), [](cv::Point2d) { return 0.1; }), IsEmpty());
 }

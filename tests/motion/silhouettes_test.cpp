@@ -183,7 +183,7 @@ TEST(Silhouettes, WidthsAreThoseOfCellsOfAnySize) {
 
 TEST(Silhouettes, CanBeSwitchedOffAndForget) {
     SilhouetteOptions off;
-    off.enabled = false;
+    off.silhouettes = false;
     EXPECT_TRUE(LorryScene{}.inferred(off).empty());
     const LorryScene scene;
     Silhouettes silhouettes({}, kScale);

@@ -332,10 +332,8 @@ struct SlowClustering {
     Linkage linkage() const {
         const double noise =
             std::min(options.velocity_noise_factor * motion.background_speed_sigma, options.velocity_noise_limit);
-        const auto reach = [&](double metres) {
-            return std::max(metres / scale.gsd_m_per_px, options.min_distance_px);
-        };
-        return {reach(options.along_m), reach(options.across_m), std::max(options.velocity_floor_px, noise),
+        const auto reach = [&](double metres) { return std::max(metres / scale.gsd_m_per_px, options.min_distance); };
+        return {reach(options.along_m), reach(options.across_m), std::max(options.velocity_floor, noise),
                 options.velocity_share};
     }
     std::size_t needed() const {
@@ -355,8 +353,8 @@ struct SlowClustering {
                 cv::Point2d(motion.motion_vectors[std::size_t(member)].velocity) / double(members.size());
         }
         cluster.box = boxAround(positions, std::atan2(cluster.velocity.y, cluster.velocity.x));
-        cluster.box.length += 2 * options.margin_px;
-        cluster.box.width += 2 * options.margin_px;
+        cluster.box.length += 2 * options.margin;
+        cluster.box.width += 2 * options.margin;
         cluster.members = members;
         return cluster;
     }
@@ -435,7 +433,7 @@ TEST(SlowClusters, ClustersAreLinkedRefusedAndSplitByTheirLimits) {
             options.roof_length_m = variant % 2 == 0 ? 6 : 0;
             options.min_members = 2 + variant % 2;
             options.velocity_share = 0.1;
-            options.margin_px = 0.5 + 0.25 * variant;
+            options.margin = 0.5 + 0.25 * variant;
             const SceneScale scale{variant < 5 ? 0.3 : 0.5, 25, true};
             const MotionClustering clustering(options, scale);
             const SlowClustering slow{options, scale, motion};

@@ -60,19 +60,19 @@ struct SlowDifferences {
         const cv::Mat& now = pictures.back();
         const WarpedFrame before = laidOver(scene, pictures, options.gap);
         if (options.method == MotionMethod::three_frame_difference) {
-            DifferenceImage first = slowDifference(now, before, options.blur_px);
+            DifferenceImage first = slowDifference(now, before, options.blur);
             const DifferenceImage second =
-                slowDifference(before.gray, laidOver(scene, pictures, 2 * options.gap), options.blur_px);
+                slowDifference(before.gray, laidOver(scene, pictures, 2 * options.gap), options.blur);
             first.values = cv::min(first.values, second.values);
             first.overlap &= second.overlap;
             return first;
         }
-        if (options.method != MotionMethod::median_background) return slowDifference(now, before, options.blur_px);
+        if (options.method != MotionMethod::median_background) return slowDifference(now, before, options.blur);
         std::vector<WarpedFrame> past;
         for (int i = 1; i <= options.background_frames && i * options.background_step < int(pictures.size()); ++i)
             past.push_back(laidOver(scene, pictures, i * options.background_step));
         const Background background = medianBackground(past);
-        DifferenceImage result = slowDifference(now, {background.gray, background.known}, options.blur_px);
+        DifferenceImage result = slowDifference(now, {background.gray, background.known}, options.blur);
         cv::Mat dx, dy, slope;
         cv::Sobel(background.gray, dx, CV_32F, 1, 0);
         cv::Sobel(background.gray, dy, CV_32F, 0, 1);
@@ -203,7 +203,7 @@ TEST(SlowDifferences, ClustersAreAreasOfWhatDiffers) {
             options.gap = k == 1 ? 4 : 6;
             options.background_frames = k == 2 ? 4 : 7;
             options.background_step = k == 3 ? 3 : 2;
-            options.blur_px = k == 4 ? 0 : 1;
+            options.blur = k == 4 ? 0 : 1;
             options.noise_factor = k == 5 ? 3 : 5;
             options.min_area_m2 = k == 6 ? 3.5 : 1;
             options.min_area_px = k == 7 ? 90 : 12;

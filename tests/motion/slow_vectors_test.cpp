@@ -145,7 +145,7 @@ class SlowMotion {
                 slow[corner.id] = measure(corner, options_.slow_baseline);
             background += corner.on_background;
         }
-        if (options_.local_background.enabled) {
+        if (options_.local_background.local_background) {
             const double cell = std::max(24.0, options_.local_background.local_background_cell_m / scale_.gsd_m_per_px);
             const auto cellOf = [&](cv::Point2f p) {
                 const auto inside = [&](float at, int length) {
@@ -218,7 +218,8 @@ class SlowMotion {
 
 IndependentMotionOptions onlyCorners() {
     IndependentMotionOptions options;
-    options.shadow.enabled = options.silhouettes.enabled = options.areas.enabled = options.parallax.enabled = false;
+    options.shadow.shadow_test = options.silhouettes.silhouettes = options.areas.areas =
+        options.parallax.parallax_test = false;
     return options;
 }
 
@@ -233,7 +234,7 @@ TEST(SlowVectors, CornersMoveByWhatEveryPictureSaysOfThem) {
         options.sigma_factor = variant == 5 ? 0 : variant == 6 ? 9 : 4;
         options.find_slow = variant % 3 == 0;
         options.follow_turns = variant != 7;
-        options.local_background.enabled = variant % 4 == 2;
+        options.local_background.local_background = variant % 4 == 2;
         options.local_background.local_background_min_corners = variant == 2 ? 12 : 30;
         options.max_speed_m_s = variant == 8 ? 12 : variant == 9 ? 0 : 70;
         options.min_speed_px = variant == 10 ? 0.3 : 0.05;

@@ -71,7 +71,7 @@ TEST(ThreeFrameBoxes, AreMadeOfAreasAsTheParametersSay) {
         PeerOptions options;
         options.gap = 1;
         options.joining = 0;
-        options.min_area_px = 1;
+        options.min_area = 1;
         setParameter(describeOf(options), name, value);
         ThreeFrameBoxes boxes(options);
         std::size_t count = 0;

@@ -188,7 +188,7 @@ TEST(SlowEstimator, RefinementIsThatOfTheEquations) {
         for (unsigned seed = 1; seed <= 3; ++seed) {
             const Correspondences points = some(c.area, c.count, c.noise, c.wrong, 10 * seed + unsigned(i));
             HomographyOptions options;
-            options.inlier_distance_px = c.distance;
+            options.inlier_distance = c.distance;
             const cv::Matx33d start = c.first_cutoff < 1e6 ? someMap() : test::cameraMotion(kPicture, 3, -2, 0.5);
             const auto fit = HomographyEstimator(options, kPicture).refine(points, start, c.coarse, c.first_cutoff);
             const HomographyFit slow = slowFit(points, start, c.coarse, c.first_cutoff, c.distance);

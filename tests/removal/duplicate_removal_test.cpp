@@ -16,7 +16,7 @@ using namespace test;
 
 DuplicateRemovalOptions withoutParts() {
     DuplicateRemovalOptions options;
-    options.parts.enabled = false;
+    options.parts.join_parts = false;
     return options;
 }
 
@@ -310,7 +310,7 @@ TEST(DuplicateRemoval, TheThesisCountsVectorsOfAnySpeed) {
     const std::vector<Detection> pair{detection(100, 100, 18, 7), detection(109, 100, 18, 7)};
     const auto vectorsOf = [&](DuplicateRemovalOptions options) {
         options.threshold = 0.3;
-        options.parts.enabled = false;
+        options.parts.join_parts = false;
         return removeDuplicates(pair, motion, options, kScale)[0].vectors.size();
     };
     EXPECT_EQ(vectorsOf(DuplicateRemovalOptions::thesis()), 6U);

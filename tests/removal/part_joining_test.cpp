@@ -270,7 +270,7 @@ TEST(PartJoining, TheClosestPairGoesFirst) {
 
 TEST(PartJoining, CanBeSwitchedOff) {
     PartJoiningOptions options;
-    options.enabled = false;
+    options.join_parts = false;
     EXPECT_EQ(kept(joinParts({detection(100, 100, 5, 7), detection(113, 100, 4, 6)}, {}, options, kScale)), 2);
     EXPECT_TRUE(joinParts({}, {}, {}, kScale).empty());
 }

@@ -127,7 +127,7 @@ std::pair<double, OrientedBox> slowUnion(const Detection& a, const Detection& b,
 
 std::vector<Detection> slowJoin(std::vector<Detection> all, const FrameMotion& motion,
                                 const PartJoiningOptions& options, const SceneScale& scale) {
-    while (options.enabled) {
+    while (options.join_parts) {
         std::pair<double, std::pair<std::size_t, std::size_t>> nearest(1e9, {0, 0});
         for (std::size_t i = 0; i < all.size(); ++i) {
             for (std::size_t k = i + 1; k < all.size(); ++k) {
@@ -152,7 +152,7 @@ std::vector<Detection> slowJoin(std::vector<Detection> all, const FrameMotion& m
 
 double strength(const Detection& a, const Detection& b, const DuplicateRemovalOptions& options) {
     if (std::abs(turnBetween(a.box.heading, b.box.heading)) * 180 / CV_PI > options.max_turn_deg) return 0;
-    if (options.compare_speed && !alike(a.velocity, b.velocity, options.velocity_floor_px, options.velocity_share))
+    if (options.compare_speed && !alike(a.velocity, b.velocity, options.velocity_floor, options.velocity_share))
         return 0;
     const double shared = intersectionArea(a.box, b.box);
     if (options.measure == DuplicateMeasure::containment) return shared / std::min(a.box.area(), b.box.area());
@@ -229,7 +229,7 @@ std::vector<Detection> slowOutliers(std::vector<Detection> all, const FrameMotio
         };
         if (double(detection.vectors.size()) < needed)
             detection.rejection = Rejection::outlier;
-        else if (detection.box.area() < options.min_area_px || (options.inside_image && outside) ||
+        else if (detection.box.area() < options.min_area || (options.inside_image && outside) ||
                  detection.box.length < options.min_length_m / scale.gsd_m_per_px ||
                  beyond(options.max_length_m, detection.box.length) || beyond(options.max_width_m, detection.box.width))
             detection.rejection = Rejection::size;
@@ -264,7 +264,7 @@ TEST(SlowRemoval, PartsAreJoinedFromTheNearestPairOn) {
     for (unsigned seed = 1; seed <= 150; ++seed) {
         const Frames frames(seed);
         PartJoiningOptions options;
-        options.enabled = seed % 20 != 0;
+        options.join_parts = seed % 20 != 0;
         options.part_silhouette_gap_m = seed % 5 == 0 ? 0 : seed % 5 == 1 ? 2 : 1;
         options.part_max_turn_deg = 10 + seed % 3 * 5;
         options.part_velocity_share = 0.1;
@@ -310,7 +310,7 @@ TEST(SlowRemoval, DuplicatesAreSuppressedByScoreAndFusedByStrength) {
         options.compare_speed = seed % 4 != 0;
         options.max_turn_deg = 10 + 10 * (seed % 3);
         options.growth_limit = seed % 5 == 0 ? 0 : 1.2;
-        options.parts.enabled = seed % 2 == 0;
+        options.parts.join_parts = seed % 2 == 0;
         const SceneScale scale{0.4, 25, true};
         RemovalTrace trace;
         const auto found = removeDuplicates(frames.detections, frames.motion, options, scale, &trace);
@@ -336,7 +336,7 @@ TEST(SlowRemoval, OutliersBreakALimit) {
         options.max_min_vectors = 4 + int(seed % 3) * 4;
         options.vector_margin = 0.4 * (seed % 3) + 0.1;
         options.compare_velocity = seed % 3 != 0;
-        options.min_area_px = seed % 2 == 0 ? 40 : 10;
+        options.min_area = seed % 2 == 0 ? 40 : 10;
         options.min_length_m = 1.2 + 0.5 * (seed % 3);
         options.max_length_m = seed % 4 == 0 ? 0 : 4;
         options.max_width_m = seed % 5 == 0 ? 0 : 2;

@@ -21,7 +21,7 @@ struct LabelSession::Opened {
 };
 
 LabelSession::LabelSession(ProjectSession& session, QObject* parent)
-    : QObject(parent), session_(session), reread_(kReread_ms, [this] { refreshReadOnly(); }) {
+    : QObject(parent), session_(session), reread_(kReread_ms, [this] { rereadReadOnly(); }) {
     whenChanged(
         session_, this,
         {
@@ -72,17 +72,25 @@ void LabelSession::adopt(const std::shared_ptr<Opened>& opened) {
     if (store_->readOnly()) reread_.start();
 }
 
-void LabelSession::refreshReadOnly() {
+void LabelSession::rereadReadOnly() {
     if (!store_ || !store_->readOnly()) {
         reread_.stop();
         return;
     }
-    try {
-        if (store_->refresh()) wasChanged();
-    } catch (const std::exception& error) {
+    const auto work = [this, path = project_path_, sequence_id = sequence_.id,
+                       known = store_->changes()](const BackgroundTask& task) {
+        ProjectFile project = ProjectFile::open(path, ProjectFile::Mode::read_only);
+        task.tell([this, reading = AnnotationStore::readIfChanged(project, sequence_id, known)] { follow(reading); });
+    };
+    const auto failed = [this](const QString& message) {
         reread_.stop();
-        emit problem(QString::fromUtf8(error.what()));
-    }
+        emit problem(message);
+    };
+    labels_query_.ask(work, failed, BackgroundQuery::Former::finish);
+}
+
+void LabelSession::follow(std::optional<AnnotationStore::Reading> reading) {
+    if (store_ && reading && store_->follow(std::move(*reading))) wasChanged();
 }
 
 void LabelSession::readCamera() {

@@ -98,7 +98,8 @@ class LabelSession : public QObject {
     void adopt(const std::shared_ptr<Opened>& opened);
     void readCamera();
     void adoptCamera(const std::shared_ptr<const CameraMotion>& camera);
-    void refreshReadOnly();
+    void rereadReadOnly();
+    void follow(std::optional<AnnotationStore::Reading> reading);
     void close();
     void wasChanged();
     void selectOf(const AnnotationEdit& edit);

@@ -13,7 +13,10 @@ namespace eyrie::ui {
 
 namespace {
 
-constexpr int kLayoutVersion = 5;  ///< counts up when stored layouts no longer fit the docks
+/// Counts up when what was stored of a workspace no longer fits its docks, or they are arranged otherwise.
+int layoutVersionOf(WorkspaceKind kind) {
+    return kind == WorkspaceKind::label ? 6 : 5;  // 6: one column leaves the video half of a small window
+}
 const QString kCurrent = QStringLiteral("current");
 const QString kLayout = QStringLiteral("/layout");
 const QString kOverlays = QStringLiteral("/overlays");
@@ -75,7 +78,7 @@ Workspaces::Workspaces(QMainWindow& window, DockRegistry& docks, OverlaySettings
 }
 
 void Workspaces::remember() {
-    look(current_) = {alone_ ? layout_to_return_ : window_.saveState(kLayoutVersion), overlays_.profile()};
+    look(current_) = {alone_ ? layout_to_return_ : window_.saveState(layoutVersionOf(current_)), overlays_.profile()};
 }
 
 void Workspaces::showBars(bool shown) {
@@ -85,10 +88,10 @@ void Workspaces::showBars(bool shown) {
 
 void Workspaces::showPictureAlone(bool alone) {
     if (alone == std::exchange(alone_, alone)) return;
-    if (alone) layout_to_return_ = window_.saveState(kLayoutVersion);
+    if (alone) layout_to_return_ = window_.saveState(layoutVersionOf(current_));
     showBars(!alone);
     if (!alone) {
-        window_.restoreState(layout_to_return_, kLayoutVersion);
+        window_.restoreState(layout_to_return_, layoutVersionOf(current_));
         return;
     }
     for (const DockId id : allDocks())
@@ -102,7 +105,8 @@ void Workspaces::show(WorkspaceKind kind) {
     // Overlays first: docks that come up may switch them for as long as they are looked at.
     overlays_.setProfile(look(kind).overlays);
     docks_.arrange(kind);
-    if (!look(kind).layout.isEmpty()) window_.restoreState(look(kind).layout, kLayoutVersion);
+    // One of an earlier arrangement is as good as none.
+    if (!window_.restoreState(look(kind).layout, layoutVersionOf(kind))) look(kind).layout.clear();
     emit opened(kind);
     if (alone) showPictureAlone(true);
 }

@@ -133,7 +133,9 @@ int exportRun(const ExportArguments& arguments, ProjectFile& project) {
         as_video ? arguments.options : checkedOptions(arguments, labels.about, run.sequence.path);
     return untilStopped([&](const std::stop_token& stop) {
         const auto open = [&] { return openInput(run.sequence.path, 0, stop, run.sequence.frame_rate_hz); };
-        const auto video = addWorld(arguments.format, labels, project, run, open, startOf(arguments.start), stop);
+        const auto start = startOf(arguments.start);
+        const auto video = openVideoFor(arguments.format, run, open, stop);
+        addWorld(labels, arguments.format, project, run, video.get(), start, stop);
         if (as_video) return exportVmti(arguments, run, labels, *video, stop);
         tellExport(writeLabels(labels, arguments.out, arguments.format, options, stop), labels.about.notes);
     });

@@ -26,8 +26,8 @@ void CannyHarrisOptions::describe(ParameterVisitor& visitor) {
 }
 
 CannyHarrisSegmenter::CannyHarrisSegmenter(const CannyHarrisOptions& options, const GradientOptions& components,
-                                           const SceneScale& scale, double cluster_margin_px)
-    : MaskSegmenter(components, scale, cluster_margin_px),
+                                           const SceneScale& scale, double cluster_margin)
+    : MaskSegmenter(components, scale, cluster_margin),
       options_(options),
       link_px_(std::max(3.0, scale.px(options.link_m))),
       closing_(discElement(std::max(3.0, scale.px(options.closing_m)))) {}

@@ -21,7 +21,7 @@ struct CannyHarrisOptions {
 class CannyHarrisSegmenter : public MaskSegmenter {
  public:
     CannyHarrisSegmenter(const CannyHarrisOptions& options, const GradientOptions& components, const SceneScale& scale,
-                         double cluster_margin_px);
+                         double cluster_margin);
 
  protected:
     /// Trace layers: edges, corners, clustered, closed.

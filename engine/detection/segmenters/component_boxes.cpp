@@ -140,7 +140,7 @@ std::vector<cv::Rect2d> ComponentBoxes::select(const std::vector<Region>& region
                                                const std::vector<cv::Point2f>& vectors, DetectionTrace* trace) const {
     if (trace != nullptr && regions.empty()) {
         trace->checks.push_back({"area of the largest component", "gradient.min_box_area", largestArea(labels),
-                                 static_cast<double>(options_.min_box_area_px), false, false});
+                                 static_cast<double>(options_.min_box_area), false, false});
     }
     const cv::Rect2d core = grown(boundsOf(vectors), core_margin_, core_margin_);
     std::vector<cv::Rect2d> boxes;
@@ -161,10 +161,10 @@ std::vector<cv::Rect2d> ComponentBoxes::select(const std::vector<Region>& region
     std::vector<cv::Rect2d> selected;
     for (const cv::Rect2d& box : boxes) {
         const cv::Rect2d final_box = shrunk(limited(box, vectors), too_long_, too_wide_);
-        const bool large_enough = final_box.area() >= options_.min_box_area_px;
+        const bool large_enough = final_box.area() >= options_.min_box_area;
         if (trace != nullptr) {
             trace->checks.push_back({"area of a box", "gradient.min_box_area", final_box.area(),
-                                     static_cast<double>(options_.min_box_area_px), false, large_enough, final_box});
+                                     static_cast<double>(options_.min_box_area), false, large_enough, final_box});
         }
         if (large_enough) selected.push_back(final_box);
     }

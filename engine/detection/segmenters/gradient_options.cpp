@@ -71,7 +71,7 @@ void GradientOptions::describe(ParameterVisitor& visitor) {
                   "Teutsch §5.4.1, eq. 5.7"});
     declare.real("gradient.canny_variance", canny_variance, 0.1, 25,
                  {"px²", "Variance of the Gaussian of the Canny gradient.", "Teutsch §5.4.1"});
-    deciding.integer("gradient.min_box_area", min_box_area_px, 1, 10000,
+    deciding.integer("gradient.min_box_area", min_box_area, 1, 10000,
                      {"px²", "Smaller boxes are dropped.", "Teutsch §5.4.1"});
     deciding.flag("gradient.need_support", need_support,
                   {"", "Keep only components that hold motion vectors of the cluster itself.", ""});

@@ -24,7 +24,7 @@ struct GradientOptions {
     int lbp_radius_max = 2;          ///< px
     double lbp_threshold = 3;        ///< grey values
     double canny_variance = 0.5;     ///< px²
-    int min_box_area_px = 10;        ///< px²
+    int min_box_area = 10;           ///< px²
     bool need_support = true;        ///< only components that hold vectors of the cluster
     double support_share = 0.1;      ///< … at least this share of them
     bool handle_cut = true;          ///< components cut by the ROI's edge keep only the part near the vectors

@@ -33,12 +33,12 @@ class ClosedGradient : public PreparedArea {
 
 }  // namespace
 
-GradientSegmenter::GradientSegmenter(const GradientOptions& options, const SceneScale& scale, double cluster_margin_px)
+GradientSegmenter::GradientSegmenter(const GradientOptions& options, const SceneScale& scale, double cluster_margin)
     : options_(options),
       lbp_(lbpOf(options)),
       component_boxes_(options, scale),
       quantile_margin_(std::max(1.0, scale.px(options.quantile_margin_m))),
-      cluster_margin_px_(cluster_margin_px) {}
+      cluster_margin_px_(cluster_margin) {}
 
 cv::Mat GradientSegmenter::gradientOf(const cv::Mat& gray) const {
     cv::Mat gradient;
@@ -91,7 +91,7 @@ std::vector<cv::Rect2d> GradientSegmenter::segment(const MotionRoi& roi, Detecti
     cv::Mat closed;
     closeGaps(binary, closed);
     cv::Mat labels;
-    const std::vector<Region> regions = findRegions(closed, options_.min_box_area_px, labels);
+    const std::vector<Region> regions = findRegions(closed, options_.min_box_area, labels);
     std::vector<cv::Rect2d> boxes = component_boxes_.select(regions, labels, roi.vectors, trace);
     if (trace != nullptr) {
         trace->add(TraceLayer::binary, binary);
@@ -122,7 +122,7 @@ std::vector<Detection> GradientSegmenter::decide(const MotionRoi& roi, const Pre
     if (!threshold) return detectionsOf(roi, {});
     cv::Mat labels;
     const std::vector<Region> regions =
-        findRegions(gradient->closed >= static_cast<double>(*threshold), options_.min_box_area_px, labels);
+        findRegions(gradient->closed >= static_cast<double>(*threshold), options_.min_box_area, labels);
     return detectionsOf(roi, component_boxes_.select(regions, labels, roi.vectors));
 }
 

@@ -12,8 +12,8 @@ namespace eyrie {
 /// connected components, upright boxes in the ROI.
 class GradientSegmenter : public Detector {
  public:
-    /// `cluster_margin_px`: margin of the cluster's box where that is delivered instead.
-    GradientSegmenter(const GradientOptions& options, const SceneScale& scale, double cluster_margin_px);
+    /// `cluster_margin`: margin of the cluster's box where that is delivered instead.
+    GradientSegmenter(const GradientOptions& options, const SceneScale& scale, double cluster_margin);
 
     /// Trace layers: raw, gradient, lbp mask (LBP only), quantile area, binary, closed, components.
     std::vector<Detection> detect(const MotionRoi& roi, DetectionTrace* trace = nullptr) const override;

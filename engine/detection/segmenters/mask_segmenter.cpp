@@ -51,16 +51,14 @@ double otsuWithin(const cv::Mat& image, const cv::Mat& mask) {
     return cv::threshold(values, unused, 0, 255, cv::THRESH_BINARY | cv::THRESH_OTSU);
 }
 
-MaskSegmenter::MaskSegmenter(const GradientOptions& components, const SceneScale& scale, double cluster_margin_px)
-    : components_(withoutReach(components)),
-      component_boxes_(components_, scale),
-      cluster_margin_px_(cluster_margin_px) {}
+MaskSegmenter::MaskSegmenter(const GradientOptions& components, const SceneScale& scale, double cluster_margin)
+    : components_(withoutReach(components)), component_boxes_(components_, scale), cluster_margin_px_(cluster_margin) {}
 
 std::vector<cv::Rect2d> MaskSegmenter::segment(const MotionRoi& roi, DetectionTrace* trace) const {
     if (std::min(roi.image.cols, roi.image.rows) < kSmallestMaskSide) return {};
     const cv::Mat pixels = objectPixels(roi, trace) & roi.inside;
     cv::Mat labels;
-    const std::vector<Region> regions = findRegions(pixels, components_.min_box_area_px, labels);
+    const std::vector<Region> regions = findRegions(pixels, components_.min_box_area, labels);
     std::vector<cv::Rect2d> boxes = component_boxes_.select(regions, labels, roi.vectors, trace);
     if (trace != nullptr) {
         cv::Mat components;

@@ -11,9 +11,9 @@ namespace eyrie {
 /// made of them, with the same limits as gradient based segmentation, so that methods differ by their pixels alone.
 class MaskSegmenter : public Detector {
  public:
-    /// `components`: what happens to components (see ComponentBoxes); `cluster_margin_px`: margin of the cluster's box
+    /// `components`: what happens to components (see ComponentBoxes); `cluster_margin`: margin of the cluster's box
     /// where that is delivered instead.
-    MaskSegmenter(const GradientOptions& components, const SceneScale& scale, double cluster_margin_px);
+    MaskSegmenter(const GradientOptions& components, const SceneScale& scale, double cluster_margin);
 
     /// Trace layers: raw, those of the method, components.
     std::vector<Detection> detect(const MotionRoi& roi, DetectionTrace* trace = nullptr) const final;

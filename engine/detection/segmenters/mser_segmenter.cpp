@@ -41,8 +41,8 @@ void MserOptions::describe(ParameterVisitor& visitor) {
 }
 
 MserSegmenter::MserSegmenter(const MserOptions& options, const GradientOptions& components, const SceneScale& scale,
-                             double cluster_margin_px)
-    : MaskSegmenter(components, scale, cluster_margin_px), options_(options) {
+                             double cluster_margin)
+    : MaskSegmenter(components, scale, cluster_margin), options_(options) {
     constexpr double kLargest = 1e8;
     const double px_per_m2 = 1 / (scale.gsd_m_per_px * scale.gsd_m_per_px);
     min_area_ = std::max(kSmallestArea, cvRound(std::min(options.min_area_m2 * px_per_m2, kLargest)));

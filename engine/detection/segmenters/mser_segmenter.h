@@ -23,7 +23,7 @@ struct MserOptions {
 class MserSegmenter : public MaskSegmenter {
  public:
     MserSegmenter(const MserOptions& options, const GradientOptions& components, const SceneScale& scale,
-                  double cluster_margin_px);
+                  double cluster_margin);
 
  protected:
     /// Trace layers: regions (all), binary (those kept).

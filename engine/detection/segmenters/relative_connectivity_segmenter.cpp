@@ -27,7 +27,7 @@ RelativeConnectivityOptions RelativeConnectivityOptions::thesis() {
     RelativeConnectivityOptions options;
     options.deviations = 1.2;
     options.low = 40;
-    options.car_length_px = 0;
+    options.car_length = 0;
     return options;
 }
 
@@ -45,7 +45,7 @@ void RelativeConnectivityOptions::describe(ParameterVisitor& visitor) {
         {"", "Contours are at least this strong (T_l). Larger: fewer and shorter contours.", "Teutsch §7.3.2"});
     declare.real("relative_connectivity.high_factor", high_factor, 1, 100,
                  {"", "Somewhere a contour is this many times as strong as T_l (b).", "Teutsch §7.3.2"});
-    declare.real("relative_connectivity.car_length", car_length_px, 0, 200,
+    declare.real("relative_connectivity.car_length", car_length, 0, 200,
                  {"px",
                   "Search areas are scaled until a car is this long, as T_l counts points and holds for one size of "
                   "vehicles. 0: never.",
@@ -54,12 +54,12 @@ void RelativeConnectivityOptions::describe(ParameterVisitor& visitor) {
 
 RelativeConnectivitySegmenter::RelativeConnectivitySegmenter(const RelativeConnectivityOptions& options,
                                                              const GradientOptions& components, const SceneScale& scale,
-                                                             double cluster_margin_px)
-    : MaskSegmenter(components, scale, cluster_margin_px),
+                                                             double cluster_margin)
+    : MaskSegmenter(components, scale, cluster_margin),
       options_(options),
-      enlargement_(options.car_length_px > 0 ? std::clamp(options.car_length_px / scale.px(kCarLength),
-                                                          1 / kLargestEnlargement, kLargestEnlargement)
-                                             : 1) {}
+      enlargement_(options.car_length > 0 ? std::clamp(options.car_length / scale.px(kCarLength),
+                                                       1 / kLargestEnlargement, kLargestEnlargement)
+                                          : 1) {}
 
 cv::Mat RelativeConnectivitySegmenter::objectPixels(const MotionRoi& roi, DetectionTrace* trace) const {
     const cv::Size size(std::max(3, cvRound(enlargement_ * roi.image.cols)),

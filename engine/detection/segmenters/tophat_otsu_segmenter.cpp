@@ -38,8 +38,8 @@ void TophatOtsuOptions::describe(ParameterVisitor& visitor) {
 }
 
 TophatOtsuSegmenter::TophatOtsuSegmenter(const TophatOtsuOptions& options, const GradientOptions& components,
-                                         const SceneScale& scale, double cluster_margin_px)
-    : MaskSegmenter(components, scale, cluster_margin_px),
+                                         const SceneScale& scale, double cluster_margin)
+    : MaskSegmenter(components, scale, cluster_margin),
       min_contrast_(options.min_contrast),
       element_(elementOf(scale, options.element_m)),
       smoothing_(elementOf(scale, options.smoothing_m)),

@@ -21,7 +21,7 @@ struct TophatOtsuOptions {
 class TophatOtsuSegmenter : public MaskSegmenter {
  public:
     TophatOtsuSegmenter(const TophatOtsuOptions& options, const GradientOptions& components, const SceneScale& scale,
-                        double cluster_margin_px);
+                        double cluster_margin);
 
  protected:
     /// Trace layers: smoothed, white tophat, black tophat, binary, closed.

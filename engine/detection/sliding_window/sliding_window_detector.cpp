@@ -71,8 +71,8 @@ std::vector<cv::Rect2d> boxesOf(const std::vector<WindowHypothesis>& hypotheses)
 }  // namespace
 
 SlidingWindowDetector::SlidingWindowDetector(VehicleModel model, const SlidingWindowOptions& options,
-                                             const SceneScale& scale, double cluster_margin_px)
-    : scanner_(std::move(model)), options_(options), scale_(scale), cluster_margin_px_(cluster_margin_px) {}
+                                             const SceneScale& scale, double cluster_margin)
+    : scanner_(std::move(model)), options_(options), scale_(scale), cluster_margin_px_(cluster_margin) {}
 
 bool SlidingWindowDetector::accepted(const MotionRoi& roi, const WindowHypothesis& found) const {
     if (!inVideo(roi, found)) return false;
@@ -151,7 +151,7 @@ std::vector<Detection> SlidingWindowDetector::detectionsOf(const MotionRoi& roi,
 }
 
 std::unique_ptr<Detector> makeSlidingWindowDetector(const SlidingWindowOptions& options, const SceneScale& scale,
-                                                    double cluster_margin_px) {
+                                                    double cluster_margin) {
     const std::filesystem::path file = modelLocation(options.model);
     VehicleModel model = loadModel(file);
     if (!options.descriptor.empty() && descriptorFromName(options.descriptor) != model.descriptor->kind()) {
@@ -160,7 +160,7 @@ std::unique_ptr<Detector> makeSlidingWindowDetector(const SlidingWindowOptions& 
                         ", but sliding_window.descriptor asks for " + options.descriptor +
                         "; name a model of that descriptor in sliding_window.model, or leave the parameter empty");
     }
-    return std::make_unique<SlidingWindowDetector>(std::move(model), options, scale, cluster_margin_px);
+    return std::make_unique<SlidingWindowDetector>(std::move(model), options, scale, cluster_margin);
 }
 
 }  // namespace eyrie

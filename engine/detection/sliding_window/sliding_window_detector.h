@@ -11,10 +11,10 @@ namespace eyrie {
 /// decision value for every window, two non-maximum suppressions. The score of a detection is its decision value.
 class SlidingWindowDetector : public Detector {
  public:
-    /// `model`: the classifier to use; `cluster_margin_px`: margin of the cluster's box where that is delivered
+    /// `model`: the classifier to use; `cluster_margin`: margin of the cluster's box where that is delivered
     /// instead.
     SlidingWindowDetector(VehicleModel model, const SlidingWindowOptions& options, const SceneScale& scale,
-                          double cluster_margin_px);
+                          double cluster_margin);
 
     /// Trace layers: raw, the decision of every scale (decision values at the windows' centres), first and second
     /// suppression (raw, with the boxes left).
@@ -36,6 +36,6 @@ class SlidingWindowDetector : public Detector {
 
 /// Loads the model that the options name. Throws Error(input) when it is missing or damaged.
 std::unique_ptr<Detector> makeSlidingWindowDetector(const SlidingWindowOptions& options, const SceneScale& scale,
-                                                    double cluster_margin_px);
+                                                    double cluster_margin);
 
 }  // namespace eyrie

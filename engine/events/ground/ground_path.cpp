@@ -162,7 +162,7 @@ std::vector<GroundPath> groundPaths(const std::vector<EventTrack>& tracks, const
             if (path.measured) {
                 measure(path, raw, half_window, scale.frame_rate_hz);
                 const TrackedBox& middle = path.box(path.samples.size() / 2);
-                const double noise_m = options.noise_px * ground.metresHere(middle.frame, middle.box.centre);
+                const double noise_m = options.noise * ground.metresHere(middle.frame, middle.box.centre);
                 const double noise = speedOfNoise(noise_m, half_window, scale.frame_rate_hz);
                 const double standing = std::max(options.standing_speed_kmh / 3.6, noise);
                 tellMoving(path, standing, std::max({options.moving_speed_kmh / 3.6, standing, 1.5 * noise}));

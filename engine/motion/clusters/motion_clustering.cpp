@@ -55,10 +55,10 @@ MotionClustering::MotionClustering(const MotionClusteringOptions& options, const
 Linkage MotionClustering::linkageFor(double background_speed_sigma) const {
     Linkage linkage;
     linkage.slope = scale_.slope;
-    linkage.reach(scale_.px(options_.along_m), scale_.px(options_.across_m), std::max(options_.min_distance_px, 1e-3));
+    linkage.reach(scale_.px(options_.along_m), scale_.px(options_.across_m), std::max(options_.min_distance, 1e-3));
     const double noise =
         std::min(options_.velocity_noise_factor * background_speed_sigma, options_.velocity_noise_limit);
-    linkage.velocity_floor = std::max(options_.velocity_floor_px, noise);
+    linkage.velocity_floor = std::max(options_.velocity_floor, noise);
     linkage.velocity_share = options_.velocity_share;
     return linkage;
 }
@@ -75,7 +75,7 @@ std::vector<MotionClustering::Piece> MotionClustering::split(const FrameMotion& 
                                                              std::size_t min_members, int steps_left,
                                                              ClusteringTrace* trace) const {
     const std::vector<int>& whole = group.members;
-    const MotionCluster cluster = summarise(motion, whole, options_.margin_px);
+    const MotionCluster cluster = summarise(motion, whole, options_.margin);
     const SceneScale here = scale_.at(cluster.box.centre);
     const double widest = here.px(options_.split_width_m) + kSplitMargin;
     const double longest = here.px(options_.split_length_m) + kSplitMargin;
@@ -175,7 +175,7 @@ std::vector<MotionCluster> MotionClustering::cluster(const FrameMotion& motion, 
                                          {}});
             continue;
         }
-        TracedGroup checked = checkSize(summarise(motion, group, options_.margin_px));
+        TracedGroup checked = checkSize(summarise(motion, group, options_.margin));
         if (checked.refusal != ClusterRefusal::none) {
             checked.members = std::move(group);
             if (trace != nullptr) trace->groups.push_back(std::move(checked));
@@ -187,7 +187,7 @@ std::vector<MotionCluster> MotionClustering::cluster(const FrameMotion& motion, 
                 trace->groups.push_back({piece.members, static_cast<int>(clusters.size()), ClusterRefusal::none, size,
                                          static_cast<double>(needed), needed_parameter, piece.split_by});
             }
-            clusters.push_back(summarise(motion, std::move(piece.members), options_.margin_px));
+            clusters.push_back(summarise(motion, std::move(piece.members), options_.margin));
         }
     }
     return clusters;
@@ -202,7 +202,7 @@ LinkageGap MotionClustering::gapOutside(const FrameMotion& motion, const std::ve
         gap.parameter = gap.allowed > linkage.velocity_floor || linkage.velocity_share <= 0
                             ? "clustering.velocity_share"
                             : "clustering.velocity_floor";
-    else if (distance <= options_.min_distance_px)
+    else if (distance <= options_.min_distance)
         gap.parameter = "clustering.min_distance";
     else
         gap.parameter = nearestLimit(gap, linkage);

@@ -7,12 +7,12 @@ MotionClusteringOptions MotionClusteringOptions::thesis() {
     options.along_m = 3.0;
     options.across_m = 3.0;
     options.roof_length_m = 0;
-    options.min_distance_px = 0;  // distances follow the GSD alone
+    options.min_distance = 0;  // distances follow the GSD alone
     options.velocity_share = 0.1;
     options.velocity_noise_factor = 0;
     options.min_members = 1;  // how many vectors an object has is asked by T_out alone
     options.min_density_share = 0;
-    options.margin_px = 0;
+    options.margin = 0;
     options.split_width_m = 0;
     options.split_length_m = 0;
     options.max_length_m = 0;
@@ -35,14 +35,14 @@ void MotionClusteringOptions::describe(ParameterVisitor& visitor) {
                   "Up to this distance along their motion, vectors that move twice as alike are linked when no "
                   "standing corner lies between them: front and rear of a plain roof. 0: off.",
                   ""});
-    declare.real("clustering.min_distance", min_distance_px, 0, 100,
+    declare.real("clustering.min_distance", min_distance, 0, 100,
                  {"px", "Lowest linkage distance, whatever the ground sampling distance.", ""});
     declare.real("clustering.velocity_share", velocity_share, 0, 1,
                  {"",
                   "Linked vectors may differ in velocity by this share of their speed. About 0.03 for oblique views, "
                   "0.08 for turning vehicles.",
                   ""});
-    declare.real("clustering.velocity_floor", velocity_floor_px, 0, 5,
+    declare.real("clustering.velocity_floor", velocity_floor, 0, 5,
                  {"px/frame", "Linked vectors may always differ in velocity by this.", ""});
     declare.real("clustering.velocity_noise_factor", velocity_noise_factor, 0, 10,
                  {"",
@@ -59,7 +59,7 @@ void MotionClusteringOptions::describe(ParameterVisitor& visitor) {
                   ""});
     declare.integer("clustering.max_min_members", max_min_members, 1, 1000,
                     {"vectors", "However dense the corners are, that many vectors are enough for a cluster.", ""});
-    declare.real("clustering.margin", margin_px, 0, 20,
+    declare.real("clustering.margin", margin, 0, 20,
                  {"px", "The box around the members is grown by this on every side.", ""});
     declare.real(
         "clustering.split_width", split_width_m, 0, 500,

@@ -86,18 +86,18 @@ DifferenceImage DifferenceMotion::compare() const {
     switch (options_.method) {
         case MotionMethod::three_frame_difference:
             if (known < 2 * gap) return {};
-            return threeFrameDifference(frames_.newest(), frames_.past(gap), frames_.past(2 * gap), options_.blur_px);
+            return threeFrameDifference(frames_.newest(), frames_.past(gap), frames_.past(2 * gap), options_.blur);
         case MotionMethod::median_background: {
             std::vector<WarpedFrame> pictures;
             for (int i = 1; i <= options_.background_frames && i * options_.background_step <= known; ++i)
                 pictures.push_back(frames_.past(i * options_.background_step));
             if (pictures.size() < 3) return {};
             return backgroundDifference(frames_.newest(), medianBackground(pictures), options_.gradient_suppression,
-                                        options_.blur_px);
+                                        options_.blur);
         }
         default:
             if (known < gap) return {};
-            return twoFrameDifference(frames_.newest(), frames_.past(gap), options_.blur_px);
+            return twoFrameDifference(frames_.newest(), frames_.past(gap), options_.blur);
     }
 }
 

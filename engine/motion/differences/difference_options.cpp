@@ -54,7 +54,7 @@ void DifferenceOptions::describe(ParameterVisitor& visitor) {
     declare.real("difference.gradient_suppression", gradient_suppression, 0, 10,
                  {"", "This many times the background's gradient is taken off its difference, against misregistration.",
                   "Teutsch §2.2"});
-    declare.real("difference.blur", blur_px, 0, 20,
+    declare.real("difference.blur", blur, 0, 20,
                  {"px", "Images are smoothed by a Gaussian of this deviation first.", "Teutsch §2.2"});
     declare.real("difference.noise_factor", noise_factor, 0, 100,
                  {"",

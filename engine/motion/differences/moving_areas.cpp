@@ -167,7 +167,7 @@ std::vector<cv::Point2d> spread(const DifferingArea& area, double spacing) {
 
 void MovingAreaOptions::describe(ParameterVisitor& visitor) {
     const ParameterDeclarer declare(visitor, ChainStage::motion);
-    declare.flag("motion.areas", enabled,
+    declare.flag("motion.areas", areas,
                  {"",
                   "Where registered pictures differ and corners starve, as on vehicles of few pixels, measure the "
                   "motion of the whole area that differs.",
@@ -208,7 +208,7 @@ MovingAreas::MovingAreas(const MovingAreaOptions& options, const SceneScale& sca
     : options_(options), scale_(scale), gap_(options.gapFrames(scale)), frames_(2 * gap_), next_id_(kFirstOfAreas) {}
 
 void MovingAreas::add(const Frame& frame, const Registration& registration) {
-    if (!options_.enabled) return;
+    if (!options_.areas) return;
     if (frame.gray.empty())
         frames_.clear();
     else
@@ -283,7 +283,7 @@ std::optional<double> MovingAreas::correlationNeeded(const FrameMotion& motion, 
 std::vector<MotionVector> MovingAreas::infer(const FrameMotion& motion,
                                              const std::function<double(cv::Point2d)>& min_speed) {
     std::vector<MotionVector> inferred;
-    if (!options_.enabled || frames_.count() < 2 * gap_) return inferred;
+    if (!options_.areas || frames_.count() < 2 * gap_) return inferred;
     const cv::Size size = frames_.newest().size();
     // Linear over the picture, so that corners suffice everywhere where they do at its four.
     const auto corners = cornersOf(size);

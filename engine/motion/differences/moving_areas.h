@@ -15,7 +15,7 @@ namespace eyrie {
 
 /// Parameters of moving areas.
 struct MovingAreaOptions {
-    bool enabled = true;
+    bool areas = true;
     double area_max_corners = 6;        ///< on a car at the mean density; with more of them corners do without
     double area_few_corners = 3;        ///< … and from so many on areas must be sure
     double area_gap_s = 0.12;           ///< time between the pictures that are compared

@@ -183,7 +183,7 @@ class Silhouettes::Past {
 void SilhouetteOptions::describe(ParameterVisitor& visitor) {
     const ParameterDeclarer declare(visitor, ChainStage::motion);
     declare.flag(
-        "motion.silhouettes", enabled,
+        "motion.silhouettes", silhouettes,
         {"",
          "Infer the motion of plain roofs, which have no corners, where the picture differs from the ground as "
          "it was before the vehicle came.",
@@ -213,7 +213,7 @@ Silhouettes::Silhouettes(const SilhouetteOptions& options, const SceneScale& sca
     : options_(options), scale_(scale), frames_(options.silhouette_frames), next_id_(kFirstOfSilhouettes) {}
 
 void Silhouettes::add(const Frame& frame, const Registration& registration) {
-    if (!options_.enabled) return;
+    if (!options_.silhouettes) return;
     if (frame.gray.empty())
         frames_.clear();
     else
@@ -223,7 +223,7 @@ void Silhouettes::add(const Frame& frame, const Registration& registration) {
 std::vector<MotionVector> Silhouettes::infer(const std::vector<MotionVector>& vectors, const std::vector<int>& chosen,
                                              double background_speed_sigma) {
     std::vector<MotionVector> inferred;
-    if (!options_.enabled || frames_.count() < kFewestSamples) return inferred;
+    if (!options_.silhouettes || frames_.count() < kFewestSamples) return inferred;
     const std::vector<VectorGroup> groups =
         groupVectors(vectors, chosen, vehicleLinkage(scale_, background_speed_sigma, kVelocityShare));
     const Past past(frames_);

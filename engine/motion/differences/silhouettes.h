@@ -14,7 +14,7 @@ namespace eyrie {
 
 /// Parameters of silhouettes.
 struct SilhouetteOptions {
-    bool enabled = true;
+    bool silhouettes = true;
     int silhouette_frames = 28;          ///< pictures kept to see the ground before a vehicle came
     double silhouette_contrast = 16;     ///< grey values by which a vehicle differs from the ground under it …
     double silhouette_noise_factor = 4;  ///< … and times the spread of the ground's own brightness over time

@@ -172,7 +172,7 @@ void IndependentMotion::sortCorners(const RegisteredFrame& registered, const Fra
             slow[i] = measure(i, now, options_.slow_baseline);
         }
     }
-    if (options_.local_background.enabled) {
+    if (options_.local_background.local_background) {
         local_background_.prepare(frame.gray.empty() ? motion.image_size : frame.gray.size());
         for (std::size_t i = 0; i < corners.size(); ++i) {
             if (measured[i].baseline > 0 && corners[i].on_background)
@@ -195,7 +195,7 @@ void IndependentMotion::sortCorners(const RegisteredFrame& registered, const Fra
     motion.background_speed_sigma = noise.sigma(options_.baseline);
 
     parallax_test_.clear();
-    if (options_.parallax.enabled) {
+    if (options_.parallax.parallax_test) {
         for (std::size_t i = 0; i < corners.size(); ++i) {
             // Slower than what counts as moving: else vehicles that go one way would vote, too.
             const bool below =
@@ -241,7 +241,7 @@ void IndependentMotion::sortCorners(const RegisteredFrame& registered, const Fra
     }
     std::vector<char> looks_like_shadow = shadowLooks(frame, motion.motion_vectors);
     inferRoofs(motion, looks_like_shadow);
-    if (options_.shadow.enabled) leaveOutShadows(motion, looks_like_shadow, verdicts);
+    if (options_.shadow.shadow_test) leaveOutShadows(motion, looks_like_shadow, verdicts);
     const std::vector<MotionVector> starved =
         areas_.infer(motion, [this](cv::Point2d place) { return limitsAt(place).least; });
     motion.motion_vectors.insert(motion.motion_vectors.end(), starved.begin(), starved.end());
@@ -249,7 +249,7 @@ void IndependentMotion::sortCorners(const RegisteredFrame& registered, const Fra
 
 std::vector<char> IndependentMotion::shadowLooks(const Frame& frame, const std::vector<MotionVector>& vectors) {
     std::vector<char> looks_like_shadow(vectors.size(), 0);
-    if (!options_.shadow.enabled) return looks_like_shadow;
+    if (!options_.shadow.shadow_test) return looks_like_shadow;
     shadow_test_.prepare(frame.gray);
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         looks_like_shadow[i] = shadow_test_.isShadow(vectors[i].position) ? 1 : 0;

@@ -32,11 +32,11 @@ IndependentMotionOptions IndependentMotionOptions::thesis() {
     options.min_speed_px = 0;  // one threshold
     options.sigma_factor = 0;
     options.max_speed_m_s = 0;
-    options.shadow.enabled = false;
-    options.silhouettes.enabled = false;
-    options.areas.enabled = false;
-    options.parallax.enabled = false;
-    options.local_background.enabled = false;
+    options.shadow.shadow_test = false;
+    options.silhouettes.silhouettes = false;
+    options.areas.areas = false;
+    options.parallax.parallax_test = false;
+    options.local_background.local_background = false;
     return options;
 }
 

@@ -9,7 +9,7 @@ namespace eyrie {
 
 void LocalBackgroundOptions::describe(ParameterVisitor& visitor) {
     const ParameterDeclarer declare(visitor, ChainStage::motion);
-    declare.flag("motion.local_background", enabled,
+    declare.flag("motion.local_background", local_background,
                  {"",
                   "Subtract the median residual velocity of the corners around. Helps against parallax, harms large "
                   "vehicles.",

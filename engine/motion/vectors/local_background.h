@@ -10,7 +10,7 @@ namespace eyrie {
 
 /// Parameters of the local background correction.
 struct LocalBackgroundOptions {
-    bool enabled = false;
+    bool local_background = false;
     double local_background_cell_m = 15;    ///< side of a cell
     int local_background_min_corners = 12;  ///< a cell with fewer is not corrected
 

@@ -37,7 +37,7 @@ cv::Vec3d lineOf(cv::Point2d p, cv::Point2d v) {
 void ParallaxTestOptions::describe(ParameterVisitor& visitor) {
     const ParameterDeclarer declare(visitor, ChainStage::motion);
     declare.flag(
-        "motion.parallax_test", enabled,
+        "motion.parallax_test", parallax_test,
         {"",
          "Corners that move along epipolar lines, no faster than roofs and trees of this scene seem to, do not "
          "count as moving.",

@@ -11,7 +11,7 @@ namespace eyrie {
 
 /// Parameters of the parallax test.
 struct ParallaxTestOptions {
-    bool enabled = true;
+    bool parallax_test = true;
     double parallax_factor = 2.0;     ///< of the usual parallax, up to which a corner may be a standing one
     double parallax_agreement = 0.6;  ///< share of the strong residuals that must point along epipolar lines
 

@@ -16,7 +16,7 @@ constexpr int kLitRun = 2;              ///< half pixels of lit ground that are 
 void ShadowTestOptions::describe(ParameterVisitor& visitor) {
     const ParameterDeclarer declare(visitor, ChainStage::motion);
     declare.flag(
-        "motion.shadow_test", enabled,
+        "motion.shadow_test", shadow_test,
         {"", "Leave out corners that look like the outline of a moving shadow. Helps by day, not at night.", ""});
     declare.real("motion.shadow_darkest", shadow_darkest, 0, 1,
                  {"", "A shadow is at least this share of the ground's brightness.", ""});

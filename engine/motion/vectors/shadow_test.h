@@ -10,7 +10,7 @@ namespace eyrie {
 
 /// Parameters of the shadow test.
 struct ShadowTestOptions {
-    bool enabled = true;
+    bool shadow_test = true;
     double shadow_darkest = 0.3;        ///< share of the ground's brightness; darker is no cast shadow
     double shadow_brightest = 0.75;     ///< a shadow is darker than this share of the ground's brightness
     double shadow_bright_near = 1.2;    ///< anything brighter than this near the corner belongs to a vehicle

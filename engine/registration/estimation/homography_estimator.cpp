@@ -161,7 +161,7 @@ bool homographyThrough(const Correspondences& p, const std::size_t* at, Homograp
 void HomographyOptions::describe(ParameterVisitor& visitor) {
     const ParameterDeclarer declare(visitor, ChainStage::registration);
     declare.real(
-        "registration.inlier_distance", inlier_distance_px, 0.1, 10,
+        "registration.inlier_distance", inlier_distance, 0.1, 10,
         {"px",
          "Largest residual with which a corner counts as background. The true limit is five times the measured "
          "deviation where that is less.",
@@ -202,7 +202,7 @@ Correspondences HomographyEstimator::normalised(const Correspondences& points) c
 
 std::optional<HomographyFit> HomographyEstimator::refine(const Correspondences& points, const cv::Matx33d& start,
                                                          double coarseness, double first_cutoff_px) const {
-    const double farthest_px = options_.inlier_distance_px * coarseness;
+    const double farthest_px = options_.inlier_distance * coarseness;
     // Residuals below this are interpolation, not motion; the cutoff need not follow them down.
     constexpr double kSmallestCutoffPx = 0.15;
     constexpr int kMostSteps = 12;

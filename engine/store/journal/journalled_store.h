@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
@@ -48,10 +49,26 @@ class JournalledStore {
     bool readOnly() const { return lock_ == nullptr; }
     /// Why, for people; empty when not.
     const std::string& readOnlyReason() const { return read_only_reason_; }
-    /// Tries again to take the right; the content is read anew. Answers whether it may write now.
+    /// Tries again to take the right; what another window has changed since it was read is read anew. Answers whether
+    /// it may write now.
     bool tryToWrite();
-    /// Reads again what another window has changed meanwhile; answers whether anything had. For readers.
-    bool refresh();
+
+    /// What is stored of a video at one moment.
+    struct Reading {
+        Set set;
+        std::vector<NumberCounter> numbers;
+        std::int64_t changes = 0;  ///< counter kChanges
+        int undo_count = 0;
+        int redo_count = 0;
+    };
+    /// For readers, who follow what another window changes: what is there now, nothing where it is what changes() knows
+    /// already. On any thread, with a connection of its own. Throws Error(project).
+    static std::optional<Reading> readIfChanged(ProjectFile& project, int sequence_id, std::int64_t known);
+    /// Counter of the changes that are known.
+    std::int64_t changes() const { return changes_; }
+    /// Takes over what readIfChanged() answered. False, and nothing is done, where it is known by now or this store may
+    /// write.
+    bool follow(Reading reading);
 
     /// Carries the edit out and commits it. An empty edit is nothing. Throws Error(output) when read-only, what
     /// applyEdit() throws when the edit does not fit, Error(project | output) when it cannot be written: then nothing
@@ -83,7 +100,9 @@ class JournalledStore {
 
  private:
     enum class Step { edit, undo, redo };
-    void load();
+    static Reading read(ProjectFile& project, int sequence_id);
+    static std::int64_t storedChanges(ProjectFile& project);
+    void take(Reading reading);
     Edit unpacked(const StoredStep& step, bool done) const;
     void commit(const Edit& edit, Step step);
     void refuseReadOnly() const;
@@ -96,7 +115,7 @@ class JournalledStore {
     StepJournal journal_;
     std::vector<NumberCounter> numbers_;
     std::uint64_t version_ = 0;
-    std::int64_t changes_ = 0;  ///< counter kChanges when read or written last
+    std::int64_t changes_ = -1;  ///< counter kChanges when read or written last; −1: nothing was
     int undo_count_ = 0;
     int redo_count_ = 0;
 };

@@ -3,6 +3,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "core/utc_time.h"
 #include "store/database/rows.h"
@@ -13,11 +14,8 @@ namespace eyrie {
 
 template <class Content>
 JournalledStore<Content>::JournalledStore(ProjectFile& project, int sequence_id)
-    : project_(project),
-      sequence_id_(sequence_id),
-      journal_(project, sequence_id, Content::kSteps),
-      numbers_(Content::kNumbers.begin(), Content::kNumbers.end()) {
-    if (!tryToWrite()) load();
+    : project_(project), sequence_id_(sequence_id), journal_(project, sequence_id, Content::kSteps) {
+    if (!tryToWrite()) take(read(project_, sequence_id_));
 }
 
 template <class Content>
@@ -30,33 +28,56 @@ bool JournalledStore<Content>::tryToWrite() {
     }
     auto lock = WriterLock::tryTake(project_.path(), read_only_reason_, Content::kWork);
     if (!lock) return false;
-    load();
+    if (storedChanges(project_) != changes_) take(read(project_, sequence_id_));
     lock_ = std::move(lock);
     read_only_reason_.clear();
     return true;
 }
 
 template <class Content>
-void JournalledStore<Content>::load() {
-    guarded(project_.path(), Content::kReading, [&] {
-        SQLite::Database& database = project_.database();
+auto JournalledStore<Content>::read(ProjectFile& project, int sequence_id) -> Reading {
+    Reading reading;
+    reading.numbers = std::vector<NumberCounter>(Content::kNumbers.begin(), Content::kNumbers.end());
+    const StepJournal journal(project, sequence_id, Content::kSteps);
+    guarded(project.path(), Content::kReading, [&] {
+        SQLite::Database& database = project.database();
         SQLite::Transaction moment(database);
-        set_ = Content::read(database, sequence_id_);
-        changes_ = readCounter(database, Content::kChanges);
-        for (NumberCounter& number : numbers_) number.read(database);
-        undo_count_ = journal_.doneCount();
-        redo_count_ = journal_.undoneCount();
+        reading.set = Content::read(database, sequence_id);
+        reading.changes = readCounter(database, Content::kChanges);
+        for (NumberCounter& number : reading.numbers) number.read(database);
+        reading.undo_count = journal.doneCount();
+        reading.redo_count = journal.undoneCount();
     });
+    return reading;
+}
+
+template <class Content>
+std::int64_t JournalledStore<Content>::storedChanges(ProjectFile& project) {
+    return guarded(project.path(), Content::kReading,
+                   [&] { return readCounter(project.database(), Content::kChanges); });
+}
+
+template <class Content>
+auto JournalledStore<Content>::readIfChanged(ProjectFile& project, int sequence_id, std::int64_t known)
+    -> std::optional<Reading> {
+    if (storedChanges(project) == known) return std::nullopt;
+    return read(project, sequence_id);
+}
+
+template <class Content>
+void JournalledStore<Content>::take(Reading reading) {
+    set_ = std::move(reading.set);
+    numbers_ = std::move(reading.numbers);
+    changes_ = reading.changes;
+    undo_count_ = reading.undo_count;
+    redo_count_ = reading.redo_count;
     ++version_;
 }
 
 template <class Content>
-bool JournalledStore<Content>::refresh() {
-    if (lock_) return false;
-    const auto changes = guarded(project_.path(), Content::kReading,
-                                 [&] { return readCounter(project_.database(), Content::kChanges); });
-    if (changes == changes_) return false;
-    load();
+bool JournalledStore<Content>::follow(Reading reading) {
+    if (lock_ || reading.changes == changes_) return false;
+    take(std::move(reading));
     return true;
 }
 

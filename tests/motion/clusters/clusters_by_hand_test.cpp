@@ -44,7 +44,7 @@ std::size_t countOf(const MotionClusteringOptions& options, const FrameMotion& m
 
 TEST(ClustersByHand, ABoxLiesAroundItsVectorsInTheirMeanDirection) {
     MotionClusteringOptions options = bare();
-    options.margin_px = 0.5;
+    options.margin = 0.5;
     FrameMotion motion = moving({{100, 50}, {106, 50}, {103, 53}});
     motion.motion_vectors[0].velocity = {1.45F, 0.03F};
     motion.motion_vectors[1].velocity = {1.55F, -0.03F};
@@ -99,7 +99,7 @@ TEST(ClustersByHand, WhatIsTooLargeIsRefusedWithItsSizeAndLimit) {
     const FrameMotion motion = moving({{100, 50}, {109, 50}, {104, 54}});  // 10 × 5 px with the margin
     const auto refusedBy = [&](double max_length, double max_width) {
         MotionClusteringOptions options = bare();
-        options.margin_px = 0.5;
+        options.margin = 0.5;
         options.max_length_m = max_length;
         options.max_width_m = max_width;
         ClusteringTrace trace;

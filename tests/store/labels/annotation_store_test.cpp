@@ -9,6 +9,7 @@
 #include <random>
 
 #include "core/error.h"
+#include "store/following.h"
 #include "store/labels/label_samples.h"
 #include "store/samples.h"
 #include "support/temporary_folder.h"
@@ -310,9 +311,9 @@ TEST_F(AnnotationStoreTest, ASecondWindowReadsAndSaysWhy) {
     expectError(ErrorKind::output, "are read-only", [&] { second.apply(test::sampleEdit(9)); });
     expectError(ErrorKind::output, "are read-only", [&] { second.undo(); });
     // It follows the first.
-    EXPECT_FALSE(second.refresh());
+    EXPECT_FALSE(test::follows(second, path_));
     first->apply(moved(first->annotations().objects.at(1), 2));
-    EXPECT_TRUE(second.refresh());
+    EXPECT_TRUE(test::follows(second, path_));
     test::expectSame(second.annotations(), first->annotations());
     EXPECT_FALSE(second.tryToWrite());
     first.reset();

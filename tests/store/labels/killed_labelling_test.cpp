@@ -6,6 +6,7 @@
 #include <random>
 #include <thread>
 
+#include "store/following.h"
 #include "store/labels/annotation_store.h"
 #include "store/labels/label_samples.h"
 #include "store/samples.h"
@@ -124,7 +125,7 @@ TEST(KilledLabelling, WhileAnotherProcessLabelsTheSecondReadsAndSaysWho) {
     EXPECT_FALSE(store.tryToWrite());
     // Until it has done more than was read.
     child.waitFor(store.undoCount() + 2);
-    EXPECT_TRUE(store.refresh());
+    EXPECT_TRUE(test::follows(store, path));
     EXPECT_GE(store.annotations().objects.size(), 2U);
     child.killNow();
     EXPECT_TRUE(store.tryToWrite()) << store.readOnlyReason();

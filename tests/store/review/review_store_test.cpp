@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "core/error.h"
+#include "store/following.h"
 #include "store/health/project_check.h"
 #include "store/labels/annotation_store.h"
 #include "store/review/packed_review.h"
@@ -187,12 +188,12 @@ TEST_F(ReviewStoreTest, ASecondProgramReadsCorrectionsAndMayNotMakeAny) {
     ReviewStore second(second_project, 1);
     ASSERT_TRUE(second.readOnly());
     store.apply(test::sampleCorrecting(1));
-    EXPECT_TRUE(second.refresh());
+    EXPECT_TRUE(test::follows(second, path_));
     EXPECT_EQ(second.review().corrections.at(1), test::sampleCorrection(1));
-    EXPECT_FALSE(second.refresh());
+    EXPECT_FALSE(test::follows(second, path_));
     errorOf([&] { second.apply(test::sampleCorrecting(2)); }, ErrorKind::output);
     store.undo();
-    EXPECT_TRUE(second.refresh());
+    EXPECT_TRUE(test::follows(second, path_));
     EXPECT_TRUE(second.review().corrections.empty());
 }
 
@@ -340,15 +341,34 @@ TEST_F(ReviewStoreTest, ASecondWindowReadsAndTakesOverWhenTheFirstIsClosed) {
     EXPECT_TRUE(second.readOnly());
     EXPECT_THAT(second.readOnlyReason(), HasSubstr("is reviewing this project"));
     errorOf([&] { second.apply(test::sampleJudging(9)); }, ErrorKind::output);
-    EXPECT_FALSE(second.refresh());
+    EXPECT_FALSE(test::follows(second, path_));
     first->apply(test::sampleJudging(1));
-    EXPECT_TRUE(second.refresh());
+    EXPECT_TRUE(test::follows(second, path_));
     EXPECT_EQ(second.review().verdicts.size(), 1U);
     EXPECT_FALSE(AnnotationStore(other, 1).readOnly()) << "another may label meanwhile";
     first.reset();
     EXPECT_TRUE(second.tryToWrite());
     EXPECT_TRUE(second.undo().has_value());
     EXPECT_TRUE(std::filesystem::exists(path_.string() + ".reviewing"));
+}
+
+TEST_F(ReviewStoreTest, WhatIsKnownIsNotReadNorTakenAgain) {
+    ReviewStore first(project_, 1);
+    first.apply(test::sampleJudging(1));
+    EXPECT_FALSE(ReviewStore::readIfChanged(project_, 1, first.changes()));
+    ProjectFile other = ProjectFile::open(path_);
+    ReviewStore second(other, 1);
+    first.apply(test::sampleJudging(2));
+    const auto reading = ReviewStore::readIfChanged(project_, 1, second.changes());
+    ASSERT_TRUE(reading.has_value());
+    const std::uint64_t before = second.version();
+    EXPECT_TRUE(second.follow(*reading));
+    EXPECT_GT(second.version(), before) << "for what was computed from it";
+    EXPECT_EQ(second.review().verdicts.size(), 2U);
+    EXPECT_FALSE(second.follow(*reading));
+    first.apply(test::sampleJudging(3));
+    EXPECT_FALSE(first.follow(*reading)) << "who writes knows better than what was read before";
+    EXPECT_EQ(first.review().verdicts.size(), 3U);
 }
 
 TEST_F(ReviewStoreTest, VideosOfAProjectAreReviewedApart) {

@@ -3,6 +3,7 @@
 #include <QTest>
 
 #include "correction/corrected_run.h"
+#include "correction/made_corrections.h"
 #include "store/runs/result_writer.h"
 #include "support/temporary_folder.h"
 #include "ui/support/ui_test.h"

@@ -8,6 +8,8 @@
 #include <QSettings>
 #include <QTabBar>
 #include <QTest>
+#include <QToolBar>
+#include <QToolButton>
 #include <QTreeWidget>
 
 #include "canvas/layers/north_layer.h"
@@ -188,6 +190,23 @@ class WorkspacesTest : public QObject {
         QVERIFY(!window->overlays().isVisible(VectorLayer::kKind));
     }
 
+    void aLayoutOfAnEarlierArrangementIsNotRestored() {
+        const auto window = this->window();
+        QVERIFY(window);
+        const QString kept = QStringLiteral("label/layout");
+        go(*window, Qt::Key_2);
+        QVERIFY(shown(*window, DockId::object));
+        window->docks().dock(DockId::object)->hide();
+        QVariantMap state = window->workspaces().state();
+        window->workspaces().restore(state);
+        QVERIFY2(!shown(*window, DockId::object), "of this arrangement it is");
+        state[kept] = window->saveState(5);  // as versions kept it that had two columns
+        window->workspaces().restore(state);
+        QVERIFY(shown(*window, DockId::object));
+        QVERIFY2(window->workspaces().state()[kept].toByteArray() != state[kept].toByteArray(),
+                 "from now on this arrangement is kept");
+    }
+
     void theLayoutCanBeReset() {
         const auto window = this->window();
         QVERIFY(window);
@@ -283,6 +302,34 @@ class WorkspacesTest : public QObject {
                                         .arg(least.height())
                                         .arg(sizes(*window))));
             }
+        }
+    }
+
+    /// The choice of the workspaces is the end of the bar that begins with the run: what does not fit is hidden first.
+    void everyWorkspaceCanBeChosenInASmallWindow() {
+        const Theme theme(*qApp);
+        const auto window = windowWithVideo();
+        QVERIFY(window);
+        window->findChild<MessageBar*>()->setMaximumHeight(0);  // notices pass
+        auto* bar = window->findChild<QToolBar*>(QStringLiteral("run_bar"));
+        QVERIFY(bar != nullptr);
+        for (const Qt::Key key : {Qt::Key_1, Qt::Key_2, Qt::Key_3}) {
+            go(*window, key);
+            QTest::qWait(0);
+            QVERIFY2(window->size() == QSize(1280, 720), qPrintable(sizes(*window)));
+            const auto* more = bar->findChild<QToolButton*>(QStringLiteral("qt_toolbar_ext_button"));
+            QVERIFY2(
+                more == nullptr || !more->isVisible(),
+                qPrintable(QStringLiteral("the bar needs %1 of %2 px").arg(bar->sizeHint().width()).arg(bar->width())));
+            for (QAction* action : bar->actions()) {
+                const QWidget* button = bar->widgetForAction(action);
+                QVERIFY(button != nullptr);
+                const QRect place(button->mapTo(window.get(), QPoint()), button->size());
+                QVERIFY2(button->isVisible() && window->rect().contains(place),
+                         qPrintable(QStringLiteral("%1 up to %2").arg(action->text()).arg(place.right())));
+            }
+            for (const WorkspaceKind kind : allWorkspaces())
+                QVERIFY(bar->actions().contains(window->actions().workspaceAction(kind)));
         }
     }
 

@@ -234,25 +234,26 @@ class ZonesWindowTest : public QObject {
         ZoneReview& review = window->events().zones();
         const auto at = [this](const char* name) { return QString::fromStdString((*home_ / name).string()); };
         review.writeFile(at("zones.json"));
-        QVERIFY(tells(*window, QStringLiteral("--zone")));
+        QTRY_VERIFY_WITH_TIMEOUT(tells(*window, QStringLiteral("--zone")), kPatience_ms);
         review.readFile(at("zones.json"));
-        QVERIFY(tells(*window, QStringLiteral("are here already")));
+        QTRY_VERIFY_WITH_TIMEOUT(tells(*window, QStringLiteral("are here already")), kPatience_ms);
         QCOMPARE(zones(*window).size(), std::size_t(1));
         const StoredZone before = zones(*window).begin()->second;
         review.panel().selectId(before.id);
         QTest::keyClick(review.panel().table(), Qt::Key_Delete);
+        QVERIFY(zones(*window).empty());
         review.readFile(at("zones.json"));
-        QCOMPARE(zones(*window).size(), std::size_t(1));
+        QTRY_COMPARE_WITH_TIMEOUT(zones(*window).size(), std::size_t(1), kPatience_ms);
         QCOMPARE(zones(*window).begin()->second.zone, before.zone);
         std::ofstream(*home_ / "broken.json") << "{\"eyrie_zones\": 1, \"zones\": [{\"name\": \"a\",";
         review.readFile(at("broken.json"));
-        QVERIFY(tells(*window, QStringLiteral("broken.json")));
+        QTRY_VERIFY_WITH_TIMEOUT(tells(*window, QStringLiteral("broken.json")), kPatience_ms);
         std::ofstream(*home_ / "equal.json")
             << R"({"eyrie_zones": 1, "zones": [{"name": "zone 1", "points": [[0, 0], [9, 0], [9, 9]]}]})";
         review.readFile(at("equal.json"));
-        QVERIFY(tells(*window, QStringLiteral("There is a zone \"zone 1\" already")));
+        QTRY_VERIFY_WITH_TIMEOUT(tells(*window, QStringLiteral("There is a zone \"zone 1\" already")), kPatience_ms);
         review.writeFile(at("no/where.json"));
-        QVERIFY(tells(*window, QStringLiteral("no/where.json")));
+        QTRY_VERIFY_WITH_TIMEOUT(tells(*window, QStringLiteral("no/where.json")), kPatience_ms);
         QCOMPARE(zones(*window).size(), std::size_t(1));
     }
 

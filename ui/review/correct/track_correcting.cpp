@@ -9,6 +9,7 @@
 #include "canvas/video_view.h"
 #include "core/error.h"
 #include "correction/corrected_run.h"
+#include "correction/made_corrections.h"
 #include "review/correct/vehicle_box_tool.h"
 #include "review/events/event_review.h"
 #include "review/tracks/tracks_panel.h"

@@ -2,12 +2,9 @@
 
 #include <algorithm>
 #include <exception>
-#include <unordered_map>
 #include <utility>
 
 #include "core/error.h"
-#include "core/utc_time.h"
-#include "session/project/person_name.h"
 #include "store/database/snapshot.h"
 #include "widgets/wiring.h"
 
@@ -41,7 +38,7 @@ EventReview::EventReview(ProjectSession& session, EventReviewAnswers answers, QO
       session_(session),
       answers_(std::move(answers)),
       search_due_(kSearchDelay_ms, [this] { search(); }),
-      reread_(kRereadVerdicts_ms, [this] { refreshReadOnly(); }),
+      reread_(kRereadVerdicts_ms, [this] { rereadReadOnly(); }),
       look_again_(kLookAgain_ms, [this] { searchSoFar(); }) {
     whenChanged(
         session_, this,
@@ -245,15 +242,30 @@ void EventReview::adopt(const std::shared_ptr<const FoundEvents>& found, std::ui
     setState(State::found);
 }
 
-void EventReview::refreshReadOnly() {
+void EventReview::rereadReadOnly() {
     if (!store_ || !store_->readOnly()) {
         reread_.stop();
         return;
     }
+    const auto work = [this, path = store_project_, sequence_id = store_sequence_,
+                       known = store_->changes()](const BackgroundTask& task) {
+        ProjectFile project = ProjectFile::open(path, ProjectFile::Mode::read_only);
+        task.tell([this, reading = ReviewStore::readIfChanged(project, sequence_id, known)] { follow(reading); });
+    };
+    const auto failed = [this](const QString& message) {
+        reread_.stop();
+        answers_.tell_problem(message);
+    };
+    store_query_.ask(work, failed, BackgroundQuery::Former::finish);
+}
+
+void EventReview::follow(std::optional<ReviewStore::Reading> reading) {
+    if (!store_ || !store_->readOnly()) return;
     try {
         // Events of verdicts that another window made are found; when it is closed, the right to judge is ours.
         const auto corrections = correctionsIn(*store_);
-        if (!store_->tryToWrite() && !store_->refresh()) return;
+        const bool others = reading && store_->follow(std::move(*reading));
+        if (!store_->tryToWrite() && !others) return;
         answers_.show_zones();
         if (correctionsIn(*store_) != corrections)
             useOtherCorrections();
@@ -263,166 +275,6 @@ void EventReview::refreshReadOnly() {
         reread_.stop();
         answers_.tell_problem(QString::fromUtf8(error.what()));
     }
-}
-
-// ---- verdicts -------------------------------------------------------------------------------------------------------
-
-int& EventReview::verdictIdAt(std::size_t position) {
-    const QueueItem& item = found_->queue.at(position);
-    return item.is_event ? carried_.of_event.at(item.index) : carried_.of_stretch.at(item.index);
-}
-
-int EventReview::verdictIdAt(std::size_t position) const {
-    const QueueItem& item = found_->queue.at(position);
-    return item.is_event ? carried_.of_event.at(item.index) : carried_.of_stretch.at(item.index);
-}
-
-const Verdict* EventReview::verdictAt(std::size_t position) const {
-    if (!store_ || position >= count()) return nullptr;
-    const auto verdict = store_->review().verdicts.find(verdictIdAt(position));
-    return verdict == store_->review().verdicts.end() ? nullptr : &verdict->second;
-}
-
-bool EventReview::isJudged(std::size_t position) const {
-    const Verdict* verdict = verdictAt(position);
-    return verdict != nullptr && verdict->judgement != Judgement::open;
-}
-
-std::size_t EventReview::judgedCount() const {
-    std::size_t judged = 0;
-    for (std::size_t i = 0; i < count(); ++i) judged += isJudged(i) ? 1 : 0;
-    return judged;
-}
-
-std::vector<std::pair<const Verdict*, CarryFault>> EventReview::left() const {
-    std::vector<std::pair<const Verdict*, CarryFault>> left;
-    if (!found_ || !store_) return left;
-    for (const LeftVerdict& each : found_->carried.left) {
-        const auto verdict = store_->review().verdicts.find(each.verdict);
-        if (verdict != store_->review().verdicts.end()) left.emplace_back(&verdict->second, each.fault);
-    }
-    return left;
-}
-
-bool EventReview::mayWrite() {
-    if (!store_) return false;
-    if (store_->readOnly()) answers_.tell_notice(QString::fromStdString(store_->readOnlyReason()));
-    return !store_->readOnly();
-}
-
-bool EventReview::mayJudge() {
-    if (watched_) answers_.tell_notice(tr("events can be judged when the run has ended"));
-    return found_ && !watched_ && mayWrite();
-}
-
-std::vector<Judged> EventReview::judgedAt(const std::vector<std::size_t>& positions) const {
-    std::vector<Judged> things;
-    for (const std::size_t position : positions) {
-        const Verdict* before = verdictAt(position);
-        things.push_back({found_->subjectAt(position), before != nullptr ? std::optional(*before) : std::nullopt});
-    }
-    return things;
-}
-
-Judge EventReview::whoJudges() const {
-    return {personName().toStdString(), nowUtc()};
-}
-
-bool EventReview::apply(const ReviewEdit& edit, const std::vector<std::size_t>& positions) {
-    if (edit.empty()) return false;
-    try {
-        store_->apply(edit);
-    } catch (const std::exception& error) {
-        answers_.tell_problem(QString::fromUtf8(error.what()));
-        return false;
-    }
-    // New verdicts come in the order of what was judged.
-    auto change = edit.verdicts.begin();
-    for (const std::size_t position : positions) {
-        change = std::find_if(change, edit.verdicts.end(),
-                              [](const Change<Verdict>& each) { return !each.before && each.after; });
-        if (change == edit.verdicts.end()) break;
-        if (change->after->subject != found_->subjectAt(position)) continue;
-        verdictIdAt(position) = change->after->id;
-        ++change;
-    }
-    answers_.show_verdicts(positions);
-    return true;
-}
-
-bool EventReview::judge(const std::vector<std::size_t>& positions, Judgement judgement) {
-    if (!mayJudge()) return false;
-    return apply(judgeAs(judgement, judgedAt(positions), whoJudges(), [this] { return store_->newVerdictId(); }),
-                 positions);
-}
-
-bool EventReview::setStarred(const std::vector<std::size_t>& positions, bool starred) {
-    if (!mayJudge()) return false;
-    const QString one = starred ? tr("Star an event") : tr("Unstar an event");
-    const QString several = (starred ? tr("Star %1 events") : tr("Unstar %1 events")).arg(positions.size());
-    const std::string name = (positions.size() == 1 ? one : several).toStdString();
-    const ReviewEdit edit = changeVerdicts(
-        judgedAt(positions), [starred](Verdict& verdict) { verdict.starred = starred; }, name, whoJudges(),
-        [this] { return store_->newVerdictId(); });
-    return apply(edit, positions);
-}
-
-bool EventReview::setNote(std::size_t position, const QString& note) {
-    if (!mayJudge()) return false;
-    const ReviewEdit edit = changeVerdicts(
-        judgedAt({position}), [&note](Verdict& verdict) { verdict.note = note.trimmed().toStdString(); },
-        tr("Change a note").toStdString(), whoJudges(), [this] { return store_->newVerdictId(); });
-    return apply(edit, {position});
-}
-
-bool EventReview::setTags(std::size_t position, const QString& tags) {
-    if (!mayJudge()) return false;
-    const ReviewEdit edit = changeVerdicts(
-        judgedAt({position}), [&tags](Verdict& verdict) { verdict.tags = tagsOf(tags.toStdString()); },
-        tr("Change tags").toStdString(), whoJudges(), [this] { return store_->newVerdictId(); });
-    return apply(edit, {position});
-}
-
-void EventReview::undo() {
-    goBack([this] { return store_->undo(); });
-}
-
-void EventReview::redo() {
-    goBack([this] { return store_->redo(); });
-}
-
-void EventReview::goBack(const std::function<std::optional<ReviewEdit>()>& step) {
-    if (!mayJudge()) return;
-    const std::vector<Zone> zones_before = zonesOf(zones());
-    std::optional<ReviewEdit> edit;
-    try {
-        edit = step();
-    } catch (const std::exception& error) {
-        answers_.tell_problem(QString::fromUtf8(error.what()));
-        return;
-    }
-    if (!edit) return;
-    std::unordered_map<int, std::size_t> places;
-    for (std::size_t i = 0; i < count(); ++i)
-        if (verdictIdAt(i) != 0) places[verdictIdAt(i)] = i;
-    std::vector<std::size_t> positions;
-    bool lost = false;  // a verdict of an earlier day came back, whose event was not looked for
-    for (const Change<Verdict>& change : edit->verdicts) {
-        const int id = (change.before ? change.before : change.after)->id;
-        const auto place = places.find(id);
-        if (place != places.end())
-            positions.push_back(place->second);
-        else
-            lost = lost || store_->review().verdicts.contains(id);
-    }
-    std::sort(positions.begin(), positions.end());
-    if (!edit->zones.empty() || !edit->bookmarks.empty()) answers_.show_zones();
-    if (!edit->corrections.empty())
-        useOtherCorrections();
-    else if (lost || zonesOf(zones()) != zones_before)
-        search();
-    answers_.show_verdicts(positions);
-    answers_.go_back_to(positions);
 }
 
 }  // namespace eyrie::ui

@@ -134,7 +134,8 @@ class EventReview : public QObject {
     void adopt(const std::shared_ptr<const FoundEvents>& found, std::uint64_t version);
     void setState(State state);
     void fail(const QString& message);
-    void refreshReadOnly();
+    void rereadReadOnly();
+    void follow(std::optional<ReviewStore::Reading> reading);
     int& verdictIdAt(std::size_t position);
     int verdictIdAt(std::size_t position) const;
     bool mayWrite();

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "canvas/video_view.h"
-#include "core/error.h"
 #include "events/zones/zone_edits.h"
 #include "events/zones/zone_file.h"
 #include "review/events/event_review.h"
@@ -61,6 +60,8 @@ ZoneReview::ZoneReview(const ZoneParts& parts, QObject* parent)
                 set, id, [&](StoredZone& zone) { zone.shown = shown; }, judge);
         });
     });
+    // A file that is still being read was meant for the video before.
+    whenChanged(parts_.session, this, {{SessionChange::video, [this] { files_query_.cancel(); }}});
     bindCommands();
     showZones();
 }
@@ -177,13 +178,14 @@ void ZoneReview::readFile(const QString& path) {
         parts_.messages.showTopic(kZonesTopic, MessageKind::warning, hintText());
         return;
     }
-    std::vector<Zone> zones;
-    try {
-        zones = readZones(path.toStdString());
-    } catch (const Error& error) {
-        parts_.messages.showTopic(kZonesTopic, MessageKind::error, QString::fromUtf8(error.what()));
-        return;
-    }
+    const auto work = [this, path](const BackgroundTask& task) {
+        const std::vector<Zone> zones = readZones(path.toStdString());
+        task.tell([this, path, zones] { takeFrom(path, zones); });
+    };
+    files_query_.ask(work, [this](const QString& fault) { tellFault(fault); });
+}
+
+void ZoneReview::takeFrom(const QString& path, const std::vector<Zone>& zones) {
     std::size_t fresh = 0;
     const bool added = parts_.review.changeZones([&](const ReviewSet& set, const Judge& judge, const NewId& new_id) {
         ReviewEdit edit = addZones(set, zones, judge, new_id);
@@ -198,13 +200,18 @@ void ZoneReview::readFile(const QString& path) {
 }
 
 void ZoneReview::writeFile(const QString& path) {
-    try {
-        writeZones(path.toStdString(), zonesOf(parts_.review.zones()));
-    } catch (const Error& error) {
-        parts_.messages.showTopic(kZonesTopic, MessageKind::error, QString::fromUtf8(error.what()));
-        return;
-    }
-    parts_.messages.showTopic(kZonesTopic, MessageKind::info, tr("Wrote %1. On the command line: --zone %1").arg(path));
+    const auto work = [this, path, zones = zonesOf(parts_.review.zones())](const BackgroundTask& task) {
+        writeZones(path.toStdString(), zones);
+        task.tell([this, path] {
+            parts_.messages.showTopic(kZonesTopic, MessageKind::info,
+                                      tr("Wrote %1. On the command line: --zone %1").arg(path));
+        });
+    };
+    files_query_.post(work, [this](const QString& fault) { tellFault(fault); });
+}
+
+void ZoneReview::tellFault(const QString& fault) {
+    parts_.messages.showTopic(kZonesTopic, MessageKind::error, fault);
 }
 
 // ---- showing --------------------------------------------------------------------------------------------------------

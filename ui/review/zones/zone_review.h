@@ -7,6 +7,7 @@
 
 #include "canvas/marks/zone_mark.h"
 #include "core/review/zone.h"
+#include "session/background/background_query.h"
 
 namespace eyrie::ui {
 
@@ -45,7 +46,7 @@ class ZoneReview : public QObject {
     void setActive(bool active);
     /// The zones, or what was found in them, are others.
     void showZones();
-    /// Files as the command line reads them; what is wrong with one is told.
+    /// Files as the command line reads them, read and written in the background; what is wrong with one is told.
     void readFile(const QString& path);
     void writeFile(const QString& path);
 
@@ -61,6 +62,9 @@ class ZoneReview : public QObject {
     void showMarks();
     void enableActions();
     void carryDrawing();
+    void takeFrom(const QString& path, const std::vector<Zone>& zones);
+    /// What is wrong with a file.
+    void tellFault(const QString& fault);
     /// Points of one frame as another shows the same ground; nothing where nobody knows.
     std::optional<std::vector<cv::Point2d>> carried(const std::vector<cv::Point2d>& points, int from, int to) const;
     QString hintText() const;
@@ -70,7 +74,8 @@ class ZoneReview : public QObject {
     ZonesPanel* panel_;
     ZoneTool* tool_;
     bool active_ = true;
-    int drawn_in_ = 0;  ///< frame that the points being drawn are meant in
+    int drawn_in_ = 0;             ///< frame that the points being drawn are meant in
+    BackgroundQuery files_query_;  ///< last: stops before the rest goes
 };
 
 }  // namespace eyrie::ui

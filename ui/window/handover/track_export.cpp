@@ -50,7 +50,8 @@ std::optional<QString> writeTracks(const ExportedRun& run, const ExportWish& wis
     const Snapshot unchanging(project);
     LabelStream labels = labelStreamOf(store, run.record, corrected);
     const auto open = [&] { return run.media ? run.media->open({}, stop) : nullptr; };
-    const auto video = addWorld(wish.format, labels, project, run.record, open, {}, stop);
+    const auto video = openVideoFor(wish.format, run.record, open, stop);
+    addWorld(labels, wish.format, project, run.record, video.get(), {}, stop);
     if (wish.format != kVmtiFormat) {
         const ExportReport report =
             writeLabels(labels, wish.path, wish.format, exportOptionsOf(wish, run.record.sequence.path), stop);
