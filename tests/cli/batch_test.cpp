@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "io/video/video_writer.h"
+#include "store/database/file_lock.h"
 #include "store/project/project_file.h"
 #include "store/runs/run_store.h"
 #include "support/moving_scene.h"
@@ -188,10 +189,39 @@ TEST_F(Batches, aSecondOneOnTheSameResultsIsRefused) {
     test::waitUntil("a run has begun", [&] { return !runsOf("out/a.eyrie").empty(); });
     const auto second = batch({"--jobs", "1"});
     EXPECT_EQ(second.exit_code, 4);
-    EXPECT_THAT(second.errors, HasSubstr("another batch, process " + std::to_string(process.pid())));
+    EXPECT_THAT(second.errors, HasSubstr("another batch or watch, process " + std::to_string(process.pid())));
+    const auto shard = batch({"--shard", "1/2"});
+    EXPECT_EQ(shard.exit_code, 4) << "it does a part of the same";
+    EXPECT_THAT(shard.errors, HasSubstr("process " + std::to_string(process.pid())));
     EXPECT_EQ(process.wait().exit_code, 0);
     EXPECT_EQ(runsOf("out/a.eyrie").size(), 1U);
     EXPECT_EQ(batch().exit_code, 0);  // the first one's lock is gone
+}
+
+TEST_F(Batches, aBatchAndAWatchAreRefusedBesideEachOther) {
+    put("in/a.mp4");
+    test::Process watching(command("watch", {"--settle", "0"}));
+    test::waitUntil("it is listed", [&] { return !inState("done", "out/watch.csv").empty(); });
+    const auto refused = batch();
+    EXPECT_EQ(refused.exit_code, 4);
+    EXPECT_THAT(refused.errors, HasSubstr("another batch or watch, process " + std::to_string(watching.pid())));
+    EXPECT_EQ(batch({"--shard", "2/2"}).exit_code, 4);
+    EXPECT_EQ(test::runProcess(command("watch")).exit_code, 4);
+    kill(watching.pid(), SIGTERM);
+    EXPECT_EQ(watching.wait().exit_code, 130);
+    EXPECT_EQ(batch().exit_code, 0) << "the lock is gone with it";
+}
+
+TEST_F(Batches, partsOfOneDivisionWorkBesideEachOtherAndOthersDoNot) {
+    put("in/a.mp4");
+    fs::create_directories(folder / "out");
+    const auto lock = FileLock::tryTake(folder / "out/batch-2-of-3.lock");
+    ASSERT_EQ(lock.outcome, FileLock::Outcome::taken);
+    EXPECT_EQ(batch({"--shard", "1/3", "--frames", "0:9"}).exit_code, 0);
+    EXPECT_EQ(batch({"--shard", "2/3", "--frames", "0:9"}).exit_code, 4);
+    EXPECT_EQ(batch({"--shard", "1/2", "--frames", "0:9"}).exit_code, 4) << "its files are those of others there";
+    EXPECT_EQ(batch({"--frames", "0:9"}).exit_code, 4);
+    EXPECT_EQ(test::runProcess(command("watch")).exit_code, 4);
 }
 
 TEST_F(Batches, stopsWhenAskedAndSaysSo) {
@@ -218,6 +248,19 @@ TEST_F(Batches, shardsDoEveryFileOnce) {
         for (const std::string& name : inState("done", "out/batch-" + part + "-of-3.csv")) all.push_back(name);
     }
     EXPECT_THAT(all, UnorderedElementsAre("a.mp4", "b.mp4", "c.mp4", "d.mp4", "e.mp4"));
+}
+
+TEST_F(Batches, aFileStaysInItsPartWhateverComesBesideIt) {
+    const std::vector<std::string> old{"b.mp4", "c.mp4", "d.mp4", "e.mp4", "f.mp4", "g.mp4"};
+    for (const std::string& name : old) put("in/" + name);
+    ASSERT_EQ(batch({"--shard", "1/2", "--frames", "0:9"}).exit_code, 0);
+    std::vector<std::string> done = inState("done", "out/batch-1-of-2.csv");
+    put("in/a.mp4");
+    put("in/bb.mp4");
+    ASSERT_EQ(batch({"--shard", "2/2", "--frames", "0:9"}).exit_code, 0);
+    EXPECT_THAT(inState("done before", "out/batch-2-of-2.csv"), testing::IsEmpty());
+    for (const std::string& name : inState("done", "out/batch-2-of-2.csv")) done.push_back(name);
+    EXPECT_THAT(done, testing::IsSupersetOf(old));
 }
 
 TEST_F(Batches, filesThatDifferInTheirEndingGetProjectsOfTheirOwn) {

@@ -137,6 +137,32 @@ TEST_F(RunAgain, BeginsWhenThereIsNothingAndEndsWhenNothingIsLeft) {
     EXPECT_EQ(cli({"run", "--resume", "--project", at("none.eyrie")}).exit_code, 5);
 }
 
+TEST_F(RunAgain, GivenTwiceAtOnceMakesOneRun) {
+    // Without a GSD both look at the video for a while before they begin a run.
+    const std::vector<std::string> twice{"run", clip(), "--resume", "--project", at("p.eyrie")};
+    test::Process one(program(twice));
+    test::Process other(program(twice));
+    const test::ProcessResult results[] = {one.wait(), other.wait()};
+    EXPECT_EQ(runsIn("p.eyrie"), 1U) << results[0].errors << results[1].errors;
+    EXPECT_TRUE(results[0].exit_code == 0 || results[1].exit_code == 0) << results[0].errors << results[1].errors;
+    for (const test::ProcessResult& result : results) {
+        if (result.exit_code == 0) continue;  // it may have come when the run was finished
+        EXPECT_EQ(result.exit_code, 5) << result.errors;
+        EXPECT_THAT(result.errors, HasSubstr("run 1 of " + at("p.eyrie")));
+    }
+}
+
+TEST_F(RunAgain, AStoppedRunIsTakenUpByOneOfTwo) {
+    stop("p.eyrie");
+    test::Process one(program(command("p.eyrie", {"--resume"})));
+    test::Process other(program(command("p.eyrie", {"--resume"})));
+    const test::ProcessResult results[] = {one.wait(), other.wait()};
+    EXPECT_EQ(runsIn("p.eyrie"), 1U);
+    EXPECT_EQ(framesDone("p.eyrie"), kFrames) << results[0].errors << results[1].errors;
+    ASSERT_EQ(cli(command("whole.eyrie")).exit_code, 0);
+    EXPECT_EQ(test::rowsOf(at("p.eyrie"), 1), test::rowsOf(at("whole.eyrie"), 1));
+}
+
 TEST_F(RunAgain, RefusesWhatContradictsTheRun) {
     stop("p.eyrie");
     const int done = framesDone("p.eyrie");

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -9,6 +10,7 @@
 #include "support/places.h"
 #include "support/process.h"
 #include "support/temporary_folder.h"
+#include "support/wait_until.h"
 
 namespace eyrie::report_pdf_test {
 namespace {
@@ -77,6 +79,37 @@ TEST_F(ReportPdf, WithoutTheProgramOfTheWindowItIsToldBeforeTheWork) {
     EXPECT_THAT(refused.errors, HasSubstr(".html"));
     EXPECT_FALSE(fs::exists(folder_ / "r.pdf"));
     EXPECT_EQ(report("r.html", {}, at("bin/eyrie-cli")).exit_code, 0);
+}
+
+TEST_F(ReportPdf, APrinterThatDiesOrIsStoppedLeavesNothingAndReplacesNothing) {
+    fs::create_directories(folder_ / "bin");
+    fs::copy_file(test::programPath("eyrie-cli"), folder_ / "bin" / "eyrie-cli");
+    fs::create_directories(folder_ / "out");
+    std::ofstream(folder_ / "out" / "r.pdf") << "%PDF-1.4 of yesterday";
+    const auto printsHalfAnd = [&](const std::string& then) {
+        std::ofstream(folder_ / "bin" / "eyrie") << "#!/bin/sh\necho half > \"$3.$$-1.part\"\n" + then + "\n";
+        fs::permissions(folder_ / "bin" / "eyrie", fs::perms::owner_all);
+    };
+    const auto files = [&] {
+        std::vector<std::string> names;
+        for (const auto& entry : fs::directory_iterator(folder_ / "out"))
+            names.push_back(entry.path().filename().string());
+        return names;
+    };
+    printsHalfAnd("kill -KILL $$");
+    const auto died = report("out/r.pdf", {"--force"}, at("bin/eyrie-cli"));
+    EXPECT_EQ(died.exit_code, 4);
+    EXPECT_THAT(died.errors, HasSubstr("did not write the PDF"));
+    EXPECT_THAT(files(), testing::ElementsAre("r.pdf"));
+
+    printsHalfAnd("touch '" + at("at-work") + "'\nexec sleep 1000");
+    test::Process process({at("bin/eyrie-cli"), "report", "--project", at("p.eyrie"), "--events", "--verdict", "all",
+                           "--out", at("out/r.pdf"), "--force"});
+    test::waitUntil("it prints", [&] { return fs::exists(folder_ / "at-work"); });
+    kill(process.pid(), SIGINT);
+    EXPECT_EQ(process.wait().exit_code, 130);
+    EXPECT_THAT(files(), testing::ElementsAre("r.pdf"));
+    EXPECT_EQ(contents("out/r.pdf"), "%PDF-1.4 of yesterday");
 }
 
 TEST_F(ReportPdf, TheProgramOfTheWindowPrintsNothingElseAndOverNothingElse) {

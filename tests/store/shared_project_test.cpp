@@ -63,6 +63,22 @@ TEST_F(SharedProject, StaysLockedHoweverOftenItIsOpenedAndLookedAt) {
     EXPECT_TRUE(lockedForOthers()) << "looked at";
 }
 
+TEST_F(SharedProject, ARunIsAddedOnlyIfNobodyAddedOneMeanwhile) {
+    ProjectFile::create(path_);
+    const MayAddRun if_first = [](const RunStore& store) {
+        const std::vector<RunRecord> runs = store.runs();
+        if (!runs.empty()) throw Error(ErrorKind::project, "begun by " + runs.front().writer);
+    };
+    const ResultWriter first(path_, test::sampleRun(), {}, if_first);
+    EXPECT_THAT(errorOf([&] { ResultWriter(path_, test::sampleRun(), {}, if_first); }, ErrorKind::project),
+                HasSubstr("begun by process " + std::to_string(getpid())))
+        << "it is seen as soon as it is there, with who writes it";
+    ProjectFile project = ProjectFile::open(path_, ProjectFile::Mode::read_only);
+    EXPECT_EQ(RunStore(project).runs().size(), 1U);
+    ResultWriter(path_, test::sampleRun(), {});
+    EXPECT_EQ(RunStore(project).runs().size(), 2U) << "who does not ask may";
+}
+
 TEST_F(SharedProject, ASecondProgramThatEndsLeavesTheLogOfTheFirst) {
     ProjectFile first = ProjectFile::create(path_);
     ProjectFile::open(path_);

@@ -74,29 +74,27 @@ bool isOver(BatchState state) {
 
 }  // namespace
 
-Batch::Batch(BatchOptions options) : options_(std::move(options)), record_(options_.out / options_.record) {}
+Batch::Batch(BatchOptions options)
+    : options_(std::move(options)), record_(options_.out, options_.record, options_.shard) {}
 
 Batch::~Batch() = default;
 
-void Batch::add(const std::vector<BatchInput>& inputs, const Shard& shard, bool anew) {
-    for (std::size_t at = 0; at < inputs.size(); ++at) {
+void Batch::add(const std::vector<BatchInput>& inputs, bool anew) {
+    summary_due_ = true;  // of a part that nothing falls to, too
+    for (const BatchInput& input : inputs) {
+        if (!options_.shard.takes(nameOfWork(input))) continue;
         BatchRow row;
-        row.input = inputs[at];
-        row.project = projectFor(inputs[at]);
+        row.input = input;
+        row.project = projectFor(input);
         row.anew = anew;
-        if (at % static_cast<std::size_t>(shard.parts) == static_cast<std::size_t>(shard.part - 1))
-            rows_.push_back(std::move(row));
+        rows_.push_back(std::move(row));
     }
 }
 
 std::filesystem::path Batch::projectFor(const BatchInput& input) {
     for (int attempt = 0;; ++attempt) {
-        std::filesystem::path project = options_.out / input.name;
-        if (attempt == 0 && isFolder(input.path)) continue;  // what looks like an ending belongs to its name
-        if (attempt == 0)
-            project.replace_extension(kProjectEnding);
-        else
-            project += (attempt == 1 ? "" : "-" + std::to_string(attempt)) + std::string(kProjectEnding);
+        std::filesystem::path project = options_.out / (attempt == 0 ? nameOfWork(input) : input.name);
+        project += (attempt < 2 ? "" : "-" + std::to_string(attempt)) + std::string(kProjectEnding);
         const auto known = projects_.find(project);
         const bool ours = known != projects_.end() && known->second == input.path;
         if (!ours && (known != projects_.end() || !isFreeFor(project, input.path))) continue;

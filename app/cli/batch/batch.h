@@ -17,6 +17,7 @@ namespace eyrie::cli {
 struct BatchOptions {
     std::filesystem::path out;           ///< folder for projects, summary and log; made where it is missing
     std::string record = "batch";        ///< how summary (.csv) and log (.jsonl) are called
+    Shard shard;                         ///< what of the inputs is worked on
     int jobs = 1;                        ///< files at once
     std::vector<std::string> run_words;  ///< what every `eyrie-cli run` is told besides
     ResumeWishes wishes;                 ///< the same, for finding out what is done
@@ -31,10 +32,9 @@ class Batch {
     Batch(const Batch&) = delete;
     Batch& operator=(const Batch&) = delete;
 
-    /// What falls to a shard of inputs in the order of findInputs(), to be worked on after those that wait. Projects
-    /// are named by all of them, so that no two shards mean the same one. `anew`: they were worked on before and have
-    /// changed.
-    void add(const std::vector<BatchInput>& inputs, const Shard& shard = {}, bool anew = false);
+    /// What falls to the shard of inputs in the order of findInputs(), to be worked on after those that wait. `anew`:
+    /// they were worked on before and have changed.
+    void add(const std::vector<BatchInput>& inputs, bool anew = false);
     /// Looks after those at work and begins others; returns at once. False when nothing is left to do.
     bool step();
     /// Asks those at work to stop and begins no more; step() as before until it says false.

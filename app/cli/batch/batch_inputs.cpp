@@ -164,6 +164,23 @@ std::vector<BatchInput> findInputs(const std::vector<std::string>& places, Known
     return search.found;
 }
 
+std::filesystem::path nameOfWork(const BatchInput& input) {
+    fs::path name = input.name;
+    return isFolder(input.path) ? name : name.replace_extension();
+}
+
+bool Shard::takes(const std::filesystem::path& name_of_work) const {
+    // FNV-1a, with its bits mixed so that names that differ in a digit spread evenly over few parts.
+    std::uint64_t hash = 0xcbf29ce484222325U;
+    for (const char byte : name_of_work.generic_string()) {
+        hash ^= static_cast<unsigned char>(byte);
+        hash *= 0x100000001b3U;
+    }
+    hash = (hash ^ (hash >> 33U)) * 0xff51afd7ed558ccdU;
+    hash ^= hash >> 33U;
+    return hash % static_cast<std::uint64_t>(parts) == static_cast<std::uint64_t>(part - 1);
+}
+
 Shard shardFrom(const std::string& text) {
     Shard shard;
     const char* const end = text.data() + text.size();

@@ -30,10 +30,18 @@ using KnownFiles = std::map<std::filesystem::path, std::pair<BatchInput, bool>>;
 std::vector<BatchInput> findInputs(const std::vector<std::string>& places);
 std::vector<BatchInput> findInputs(const std::vector<std::string>& places, KnownFiles& files);
 
+/// The name of an input without its ending, of a folder as it is: "monday/a". Inputs that share it, such as a.mp4 and
+/// a.mov, are one piece of work, so that one batch alone decides which project is whose.
+std::filesystem::path nameOfWork(const BatchInput& input);
+
 /// Part `part` (from 1) of `parts`; together they are everything, once.
 struct Shard {
     int part = 1;
     int parts = 1;
+
+    /// Whether a piece of work falls to this part. Its name alone decides, whatever else there is to do, on every
+    /// machine the same.
+    bool takes(const std::filesystem::path& name_of_work) const;
 };
 /// "2/8". Throws Error(parameter).
 Shard shardFrom(const std::string& text);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/batch/batch_inputs.h"
 #include "cli/batch/batch_rows.h"
 #include "store/database/file_lock.h"
 
@@ -15,8 +16,9 @@ namespace eyrie::cli {
 /// written with what comes next.
 class BatchRecord {
  public:
-    /// Writes `base`.csv and `base`.jsonl. Throws Error(output) while another batch does: both would do the same work.
-    explicit BatchRecord(std::filesystem::path base);
+    /// Writes `name`.csv and `name`.jsonl in a folder. Throws Error(output) while a batch or watch works there that may
+    /// do the same work: any but the other shards of the same division.
+    BatchRecord(const std::filesystem::path& out, const std::string& name, const Shard& shard);
 
     void log(const BatchRow& row);
     void summarise(const std::vector<BatchRow>& rows);

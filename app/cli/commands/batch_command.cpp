@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <thread>
+#include <utility>
 
 #include "cli/batch/batch.h"
 #include "cli/batch/batch_arguments.h"
@@ -43,9 +44,11 @@ int runBatch(const BatchArguments& arguments, const std::string& shard_text) {
                                           (arguments.places.size() > 1 ? " or the other places" : "") +
                                           "; check the folder, or whether its disk is mounted");
     }
-    Batch batch(arguments.options(record));
+    BatchOptions options = arguments.options(record);
+    options.shard = shard;
+    Batch batch(std::move(options));
     const InterruptGuard interrupt;
-    batch.add(inputs, shard);
+    batch.add(inputs);
     BatchConsole console(arguments.quiet);
     while (batch.step()) {
         if (interrupt.token().stop_requested()) batch.stop();
@@ -68,7 +71,7 @@ class Arrivals {
             Seen& seen = seen_.try_emplace(input.path, Seen{input, now}).first->second;
             if (!(seen.input == input)) seen.input = input, seen.since = now, seen.waits = true;
             if (!seen.waits || now - seen.since < settle_) continue;
-            batch.add({input}, {}, seen.taken);
+            batch.add({input}, seen.taken);
             seen.waits = false;
             seen.taken = true;
         }

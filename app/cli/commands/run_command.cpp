@@ -149,6 +149,33 @@ void takeRecord(EndedRun& ended, RunRecorder& recorder) {
     ended.record = recorder.finish(ended.summary);
 }
 
+/// What stands on the command line of a run to be resumed; `source` is the input, if one was given.
+ResumeWishes wishesOf(const RunArguments& arguments, const FrameSource* source) {
+    ResumeWishes wishes;
+    if (source != nullptr) wishes.video = source->info().path.string();
+    wishes.run = arguments.run_id;
+    wishes.gsd_m_per_px = arguments.video.gsd_m_per_px;
+    wishes.frame_rate_hz = arguments.video.frame_rate_hz;
+    if (!arguments.video.frames.empty()) wishes.frames = arguments.video.range();
+    if (arguments.preset_given) wishes.options = arguments.preset.options();
+    wishes.recording = arguments.preset.recording().changed();
+    return wishes;
+}
+
+/// With --resume: two commands that found nothing to resume would each begin a run. The first to add one has it.
+MayAddRun unlessBegunMeanwhile(const RunArguments& arguments, const FrameSource& source,
+                               const std::filesystem::path& project) {
+    if (!arguments.resume) return {};
+    return [wishes = wishesOf(arguments, &source), project](const RunStore& store) {
+        const std::optional<RunRecord> begun = chooseRun(store, project.string(), wishes).run;
+        if (!begun) return;
+        const std::string by = begun->live ? begun->writer : "another program";
+        throw Error(ErrorKind::project, "run " + std::to_string(begun->id) + " of " + project.string() +
+                                            " was begun over this video by " + by +
+                                            " meanwhile; let it end there, or give the same command again later");
+    };
+}
+
 EndedRun runAnew(const RunArguments& arguments, FrameSource& source, const std::filesystem::path& project,
                  const InterruptGuard& interrupt) {
     const FrameRange range = arguments.video.range();
@@ -164,7 +191,8 @@ EndedRun runAnew(const RunArguments& arguments, FrameSource& source, const std::
             ? arguments.preset.recording()
             : arguments.preset.recordingAll("--detections", planned.first_frame, planned.last_frame);
     ConsoleObserver console(arguments, video);
-    RunRecorder recorder(project, planned, options, &console, recording);
+    RunRecorder recorder(project, planned, options, &console, recording,
+                         unlessBegunMeanwhile(arguments, source, project));
     EndedRun ended;
     ended.summary =
         ChainRun(options, chosen.scale).run(source, range, recorder, interrupt.token(), !arguments.annotated.empty());
@@ -234,16 +262,8 @@ EndedRun goOn(const RunArguments& arguments, const RunRecord& run, FrameSource& 
 /// Which run --resume is about; `source` is the input, if one was given.
 ResumeChoice choiceOf(const RunArguments& arguments, const FrameSource* source, const std::filesystem::path& project) {
     if (source != nullptr && !arguments.run_id && !isFile(project)) return {};
-    ResumeWishes wishes;
-    if (source != nullptr) wishes.video = source->info().path.string();
-    wishes.run = arguments.run_id;
-    wishes.gsd_m_per_px = arguments.video.gsd_m_per_px;
-    wishes.frame_rate_hz = arguments.video.frame_rate_hz;
-    if (!arguments.video.frames.empty()) wishes.frames = arguments.video.range();
-    if (arguments.preset_given) wishes.options = arguments.preset.options();
-    wishes.recording = arguments.preset.recording().changed();
     ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
-    ResumeChoice choice = chooseRun(RunStore(file), project.string(), wishes);
+    ResumeChoice choice = chooseRun(RunStore(file), project.string(), wishesOf(arguments, source));
     if (choice.run && !arguments.detections_csv.empty()) needDetections(file, *choice.run);
     return choice;
 }

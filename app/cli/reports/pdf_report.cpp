@@ -8,10 +8,12 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "cli/child_program.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "io/atomic_file.h"
 #include "report/packed_report.h"
 
 namespace eyrie::cli {
@@ -51,6 +53,18 @@ class HandedBytes {
     int file_;
 };
 
+/// Takes away what a printer that was ended, or died, had written so far beside its target.
+class NoPartsLeft {
+ public:
+    explicit NoPartsLeft(std::filesystem::path target) : target_(std::move(target)) {}
+    ~NoPartsLeft() { removeAbandonedParts(target_); }
+    NoPartsLeft(const NoPartsLeft&) = delete;
+    NoPartsLeft& operator=(const NoPartsLeft&) = delete;
+
+ private:
+    std::filesystem::path target_;
+};
+
 }  // namespace
 
 void checkReportCanBeWritten(const std::filesystem::path& out) {
@@ -66,9 +80,10 @@ bool writeReport(const std::filesystem::path& out, const ReportFile& report, con
         return true;
     }
     const HandedBytes packed(packReport(report));
-    ChildProgram printer(
-        {"--print-report", packed.path(), std::filesystem::absolute(out).string(), "-platform", "offscreen"},
-        printerProgram());
+    const std::filesystem::path target = throughLinks(std::filesystem::absolute(out));
+    const NoPartsLeft tidy(target);  // before the printer: it has ended by then
+    ChildProgram printer({"--print-report", packed.path(), target.string(), "-platform", "offscreen"},
+                         printerProgram());
     std::optional<ChildEnd> end;
     while (!(end = printer.ended())) {
         if (stop.stop_requested()) return false;

@@ -27,11 +27,11 @@ std::vector<std::pair<std::string, std::string>> storedParameters(const ChainOpt
 }  // namespace
 
 RunRecorder::RunRecorder(const std::filesystem::path& project, RunRecord run, const ChainOptions& options,
-                         ChainObserver* also, const RecordingOptions& recording)
+                         ChainObserver* also, const RecordingOptions& recording, const MayAddRun& may_add)
     : project_(prepared(project)),
       options_(options),
       scale_(run.scale),
-      writer_(project, std::move(run), storedParameters(options, recording)),
+      writer_(project, std::move(run), storedParameters(options, recording), may_add),
       also_(also) {}
 
 RunRecorder::RunRecorder(const std::filesystem::path& project, const ResumedRun& resumed, ChainObserver* also)

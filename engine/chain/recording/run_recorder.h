@@ -19,8 +19,9 @@ class RunRecorder : public ChainObserver {
     /// Creates the project when it does not exist, and a run in it. `run` needs sequence, scale, preset, name and
     /// planned frames. `also`, if given, sees every frame after it was stored; it must outlive the recorder.
     /// `recording`: what of each frame is kept; a run that is gone on with keeps to what was said at its beginning.
+    /// `may_add`: as ResultWriter takes it.
     RunRecorder(const std::filesystem::path& project, RunRecord run, const ChainOptions& options,
-                ChainObserver* also = nullptr, const RecordingOptions& recording = {});
+                ChainObserver* also = nullptr, const RecordingOptions& recording = {}, const MayAddRun& may_add = {});
     /// Goes on with a run that ended early: its frames stay until each is done again.
     RunRecorder(const std::filesystem::path& project, const ResumedRun& resumed, ChainObserver* also = nullptr);
 

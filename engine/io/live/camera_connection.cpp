@@ -2,16 +2,17 @@
 #include <chrono>
 #include <cmath>
 #include <deque>
+#include <optional>
+#include <utility>
 
 #include "core/error.h"
+#include "io/live/camera_reader.h"
 #include "io/live/live_address.h"
 #include "io/live/live_connection.h"
 #include "io/video/encoding/picture_encoder.h"
 
 namespace eyrie {
 namespace {
-
-using CameraClock = std::chrono::steady_clock;
 
 /// Of a camera that does not say how many pictures a second it sends, Hz.
 constexpr double kUsualRate_hz = 25;
@@ -21,15 +22,18 @@ constexpr int kCameraQuality = 16;
 /// The run is one over the recording, as of every live source: what the chain works on was encoded before, too.
 class CameraConnection : public LiveConnection {
  public:
-    CameraConnection(const std::string& address, const CameraOpener& open)
-        : device_(cameraDevice(address)), camera_(open(device_)) {
-        if (!camera_->read(picture_) || picture_.empty())
+    CameraConnection(const std::string& address, const CameraOpener& open, double seconds, std::stop_token stop)
+        : device_(cameraDevice(address)), stop_(std::move(stop)), camera_(device_, open) {
+        picture_ = camera_.next(seconds, stop_);
+        if (stop_.stop_requested()) throw Error(ErrorKind::input, device_ + ": stopped while waiting for it");
+        if (!picture_)
             throw Error(ErrorKind::input,
                         device_ +
                             ": no picture came from this camera; disconnect it, connect it again and try once "
                             "more");
-        size_ = picture_.size();
-        const double rate = camera_->frameRate();
+        size_ = picture_->pixels.size();
+        begin_ = picture_->came;
+        const double rate = camera_.frameRate();
         VideoWriterOptions options;
         options.frame_rate_hz = rate > 1 && rate < 1000 ? rate : kUsualRate_hz;
         options.quality = kCameraQuality;
@@ -49,14 +53,13 @@ class CameraConnection : public LiveConnection {
 
     const AVFormatContext& demuxer() const override { return *described_; }
     int video() const override { return 0; }
-    /// The camera itself decides how long it waits.
-    bool read(AVPacket& packet, double) override {
+    bool read(AVPacket& packet, double seconds) override {
         while (packets_.empty()) {
-            if (picture_.empty() && !camera_->read(picture_)) return false;
-            if (picture_.empty() || picture_.size() != size_) return false;  // whoever connects again learns the size
-            encoder_->encode(picture_, nextTick(),
+            if (!picture_) picture_ = camera_.next(seconds, stop_);
+            if (!picture_ || picture_->pixels.size() != size_) return false;  // whoever connects again learns the size
+            encoder_->encode(picture_->pixels, tickOf(*picture_),
                              [this](AVPacket& made) { packets_.emplace_back(av_packet_clone(&made)); });
-            picture_.release();
+            picture_.reset();
         }
         av_packet_move_ref(&packet, packets_.front().get());
         packets_.pop_front();
@@ -64,30 +67,30 @@ class CameraConnection : public LiveConnection {
     }
 
  private:
-    /// When the picture came, on a clock that rises.
-    std::int64_t nextTick() {
-        const double seconds = std::chrono::duration<double>(CameraClock::now() - begin_).count();
+    /// When a picture came, on a clock that rises.
+    std::int64_t tickOf(const CameraPicture& picture) {
+        const double seconds = std::chrono::duration<double>(picture.came - begin_).count();
         const auto now = static_cast<std::int64_t>(std::llround(seconds / av_q2d(encoder_->codec().time_base)));
         return last_tick_ = std::max(now, last_tick_ + 1);
     }
 
     std::string device_;
-    std::unique_ptr<CameraDevice> camera_;
-    cv::Mat picture_;  ///< the first one, until it is sent
+    std::stop_token stop_;
+    CameraReader camera_;
+    std::optional<CameraPicture> picture_;  ///< until it is sent
     cv::Size size_;
     std::unique_ptr<PictureEncoder> encoder_;
     libav::Demuxer described_;
     std::deque<libav::Packet> packets_;
-    CameraClock::time_point begin_ = CameraClock::now();
+    std::chrono::steady_clock::time_point begin_;
     std::int64_t last_tick_ = -1;
 };
 
 }  // namespace
 
-std::unique_ptr<LiveConnection> connectToCamera(const std::string& address, const CameraOpener& open,
+std::unique_ptr<LiveConnection> connectToCamera(const std::string& address, const CameraOpener& open, double seconds,
                                                 const std::stop_token& stop) {
-    if (stop.stop_requested()) throw Error(ErrorKind::input, cameraDevice(address) + ": stopped while waiting for it");
-    return std::make_unique<CameraConnection>(address, open ? open : openCamera);
+    return std::make_unique<CameraConnection>(address, open ? open : openCamera, seconds, stop);
 }
 
 }  // namespace eyrie

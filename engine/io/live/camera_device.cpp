@@ -18,9 +18,8 @@
 namespace eyrie {
 namespace {
 
-constexpr int kWantedWidth = 1920;
-constexpr int kWantedHeight = 1080;
-constexpr int kMostDamaged = 10;  ///< pictures in a row
+const cv::Size kWantedSize(1920, 1080);  ///< px
+constexpr int kMostDamaged = 10;         ///< pictures in a row
 
 /// A device that is open for as long as something is asked of it.
 class AskedDevice {
@@ -77,8 +76,9 @@ std::string camerasThatAreHere() {
     throw Error(ErrorKind::input, device + ": " + why);
 }
 
-/// OpenCV says only that a camera was not opened; the device itself says why.
-void checkCamera(const std::string& path) {
+/// OpenCV says only that a camera was not opened; the device itself says why. Answers the size of the pictures that it
+/// would send, px; empty where it does not say.
+cv::Size checkedCamera(const std::string& path) {
     std::error_code unknown;
     const auto status = std::filesystem::status(path, unknown);
     if (std::filesystem::exists(status) && !std::filesystem::is_character_file(status))
@@ -96,22 +96,21 @@ void checkCamera(const std::string& path) {
     // Setting what is set already changes nothing, and is refused where somebody else receives pictures.
     v4l2_format format{};
     format.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
-    if (device.ask(VIDIOC_G_FMT, format) && !device.ask(VIDIOC_S_FMT, format) && device.reason() == EBUSY)
-        refuseCamera(path, whyNoCamera(EBUSY));
+    if (!device.ask(VIDIOC_G_FMT, format)) return {};
+    const cv::Size own(static_cast<int>(format.fmt.pix.width), static_cast<int>(format.fmt.pix.height));
+    if (!device.ask(VIDIOC_S_FMT, format) && device.reason() == EBUSY) refuseCamera(path, whyNoCamera(EBUSY));
+    return own;
 }
 
 class OpenCvCamera : public CameraDevice {
  public:
-    explicit OpenCvCamera(const std::string& device) {
+    OpenCvCamera(const std::string& device, cv::Size own) {
         cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
         if (!capture_.open(device, cv::CAP_V4L2))
             refuseCamera(device,
                          "no pictures that can be read come from this camera, or another program uses it; close "
                          "programs that show it and try again");
-        // Large pictures come fast enough as JPEG alone. What a camera has not is left as it is.
-        capture_.set(cv::CAP_PROP_FOURCC, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'));
-        capture_.set(cv::CAP_PROP_FRAME_WIDTH, kWantedWidth);
-        capture_.set(cv::CAP_PROP_FRAME_HEIGHT, kWantedHeight);
+        askForPictures(capture_, own);
     }
     bool read(cv::Mat& picture) override {
         try {
@@ -130,6 +129,17 @@ class OpenCvCamera : public CameraDevice {
 };
 
 }  // namespace
+
+void askForPictures(cv::VideoCapture& camera, cv::Size own) {
+    const int jpeg = cv::VideoWriter::fourcc('M', 'J', 'P', 'G');
+    // What is set is not always what is granted; the device says what it sends.
+    camera.set(cv::CAP_PROP_FOURCC, jpeg);
+    const bool granted = static_cast<int>(camera.get(cv::CAP_PROP_FOURCC)) == jpeg;
+    const cv::Size size = granted ? kWantedSize : own;
+    if (size.empty()) return;
+    camera.set(cv::CAP_PROP_FRAME_WIDTH, size.width);
+    camera.set(cv::CAP_PROP_FRAME_HEIGHT, size.height);
+}
 
 std::string whyNoCamera(int reason) {
     switch (reason) {
@@ -150,8 +160,8 @@ std::string whyNoCamera(int reason) {
 }
 
 std::unique_ptr<CameraDevice> openCamera(const std::string& device) {
-    checkCamera(device);
-    return std::make_unique<OpenCvCamera>(device);
+    const cv::Size own = checkedCamera(device);
+    return std::make_unique<OpenCvCamera>(device, own);
 }
 
 }  // namespace eyrie

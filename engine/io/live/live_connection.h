@@ -31,8 +31,9 @@ class LiveConnection {
 
 /// An address of the net. Throws Error(input) when nothing of use comes within `seconds`.
 std::unique_ptr<LiveConnection> connectToNet(const std::string& address, double seconds, const std::stop_token& stop);
-/// A camera, whose pictures are encoded as they come. Throws Error(input) where it sends none, and what `open` throws.
-std::unique_ptr<LiveConnection> connectToCamera(const std::string& address, const CameraOpener& open,
+/// A camera, whose pictures are encoded as they come. Throws Error(input) where it sends none within `seconds`, and
+/// what `open` throws. One that hangs is not waited for; `open` must stay of use until then (CameraReader).
+std::unique_ptr<LiveConnection> connectToCamera(const std::string& address, const CameraOpener& open, double seconds,
                                                 const std::stop_token& stop);
 
 }  // namespace eyrie

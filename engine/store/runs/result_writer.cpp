@@ -100,7 +100,7 @@ struct ResultWriter::Implementation {
 };
 
 ResultWriter::ResultWriter(const std::filesystem::path& project, RunRecord run,
-                           const std::vector<std::pair<std::string, std::string>>& parameters)
+                           const std::vector<std::pair<std::string, std::string>>& parameters, const MayAddRun& may_add)
     : implementation_(std::make_unique<Implementation>(project)) {
     SQLite::Database& database = implementation_->project.database();
     const std::filesystem::path& path = implementation_->project.path();
@@ -117,6 +117,7 @@ ResultWriter::ResultWriter(const std::filesystem::path& project, RunRecord run,
     }
     guarded(implementation_->project.path(), "adding a run", [&] {
         SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+        if (may_add) may_add(RunStore(implementation_->project));
         run.sequence.id = storeSequence(database, run.sequence);
         if (run.started_utc.empty()) run.started_utc = nowUtc();
         implementation_->run_id = storeRun(database, run);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -10,6 +11,9 @@
 
 namespace eyrie {
 
+/// Asked before a run is added, when nobody else can add or change one: throws Error where it must not be.
+using MayAddRun = std::function<void(const RunStore&)>;
+
 /// Writes the frames of one run as they come, each committed when write() returns: a killed process leaves all of them,
 /// and each is there whole or not at all. Holds no lock between the calls, so that others may write to the project
 /// while a run works. Used by one thread; opens its own connection.
@@ -18,9 +22,9 @@ class ResultWriter {
     /// Adds sequence (unless a row of the same path and size exists), run and parameters, committed at once. `run.id`,
     /// `run.sequence.id`, `run.started_utc` (when empty) are filled in. `run.last_frame` kLastFrame: the end is not
     /// known before, and run and video end at the newest frame that is there; until there is one, before the first.
-    /// Throws Error(project | output).
+    /// `may_add`: what it throws is thrown, and nothing is added. Throws Error(project | output).
     ResultWriter(const std::filesystem::path& project, RunRecord run,
-                 const std::vector<std::pair<std::string, std::string>>& parameters);
+                 const std::vector<std::pair<std::string, std::string>>& parameters, const MayAddRun& may_add = {});
     /// Goes on with a run that ended early, from the frame after `last`; see RunStateStore::takeUp. Throws
     /// Error(project | output), also when another program writes it.
     ResultWriter(const std::filesystem::path& project, int run_id, FrameIndex last);

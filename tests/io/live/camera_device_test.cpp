@@ -6,6 +6,8 @@
 #include <atomic>
 #include <cerrno>
 #include <chrono>
+#include <future>
+#include <opencv2/videoio.hpp>
 #include <thread>
 
 #include "core/error.h"
@@ -125,6 +127,103 @@ TEST_F(CameraStreams, EndingItKeepsWhatCame) {
     EXPECT_GE(numbers.size(), 21U);
     EXPECT_LT(numbers.size(), 1000U);
     EXPECT_EQ(recorded(), numbers);
+}
+
+/// Sends some pictures and then hangs, as one whose cable is loose, until it is let go.
+class HangingCamera : public CameraDevice {
+ public:
+    HangingCamera(std::shared_future<void> let_go, std::shared_ptr<std::promise<void>> closed)
+        : played_(0, 10, {160, 64}), let_go_(std::move(let_go)), closed_(std::move(closed)) {}
+    ~HangingCamera() override { closed_->set_value(); }
+    bool read(cv::Mat& picture) override {
+        if (played_.read(picture)) return true;
+        let_go_.wait();
+        return false;
+    }
+    double frameRate() const override { return 200; }
+
+ private:
+    PlayedCamera played_;
+    std::shared_future<void> let_go_;
+    std::shared_ptr<std::promise<void>> closed_;
+};
+
+TEST_F(CameraStreams, StopDoesNotWaitForOneThatHangs) {
+    std::promise<void> letting_go;
+    const std::shared_future<void> let_go = letting_go.get_future().share();
+    const auto closing = std::make_shared<std::promise<void>>();
+    const std::future<void> closed = closing->get_future();
+    LiveOptions hanging = options({});
+    hanging.stall_s = 1000;  // it is not opened again
+    hanging.open_camera = [let_go, closing](const std::string&) {
+        return std::make_unique<HangingCamera>(let_go, closing);
+    };
+    std::vector<int> numbers;
+    {
+        LiveStream stream("/dev/video0", hanging, {});
+        for (FrameIndex frame = 0; frame < 5; ++frame)
+            numbers.push_back(test::numberIn(stream.read(frame, false).gray));
+        stream.finish();
+        try {
+            for (FrameIndex frame = 5;; ++frame) numbers.push_back(test::numberIn(stream.read(frame, false).gray));
+        } catch (const StreamEnded&) {
+        }
+    }
+    EXPECT_EQ(recorded(), numbers) << "what came is whole";
+    letting_go.set_value();
+    closed.wait();  // it does not keep the camera
+}
+
+TEST_F(CameraStreams, StopDoesNotWaitForOneThatHangsWhileItIsOpened) {
+    std::promise<void> letting_go;
+    const std::shared_future<void> let_go = letting_go.get_future().share();
+    const auto closing = std::make_shared<std::promise<void>>();
+    const std::future<void> closed = closing->get_future();
+    std::stop_source stop;
+    LiveOptions hanging = options({});
+    hanging.stall_s = 1000;  // it is not opened again
+    hanging.connect_s = 1000;
+    hanging.open_camera = [let_go, closing, stop](const std::string&) mutable {
+        stop.request_stop();  // while it is waited for
+        let_go.wait();
+        return std::make_unique<HangingCamera>(let_go, closing);
+    };
+    EXPECT_THAT(test::messageOf(ErrorKind::input, [&] { LiveStream("/dev/video0", hanging, stop.get_token()); }),
+                HasSubstr("/dev/video0: stopped"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "recorded.ts"));
+    letting_go.set_value();
+    closed.wait();
+}
+
+/// A camera that grants JPEG or does not, and keeps what it is asked for.
+class AskedCapture : public cv::VideoCapture {
+ public:
+    explicit AskedCapture(bool has_jpeg) : has_jpeg_(has_jpeg) {}
+    bool set(int property, double value) override {
+        if (property == cv::CAP_PROP_FRAME_WIDTH) asked.width = static_cast<int>(value);
+        if (property == cv::CAP_PROP_FRAME_HEIGHT) asked.height = static_cast<int>(value);
+        return property != cv::CAP_PROP_FOURCC || has_jpeg_;
+    }
+    double get(int property) const override {
+        if (property != cv::CAP_PROP_FOURCC) return 0;
+        return has_jpeg_ ? cv::VideoWriter::fourcc('M', 'J', 'P', 'G') : cv::VideoWriter::fourcc('Y', 'U', 'Y', 'V');
+    }
+    cv::Size asked;
+
+ private:
+    bool has_jpeg_;
+};
+
+TEST(Cameras, LargePicturesAreAskedOfThoseThatHaveJpegOnly) {
+    AskedCapture jpeg(true);
+    askForPictures(jpeg, {640, 480});
+    EXPECT_EQ(jpeg.asked, cv::Size(1920, 1080));
+    AskedCapture plain(false);
+    askForPictures(plain, {1280, 720});
+    EXPECT_EQ(plain.asked, cv::Size(1280, 720));
+    AskedCapture silent(false);
+    askForPictures(silent, {});
+    EXPECT_EQ(silent.asked, cv::Size()) << "it keeps what it has";
 }
 
 TEST(Cameras, WhatIsNoneIsNamedWithTheRemedy) {

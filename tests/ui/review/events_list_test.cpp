@@ -3,10 +3,12 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
+#include <QScrollBar>
 #include <QSignalSpy>
 #include <QTableView>
 #include <QTest>
 #include <map>
+#include <set>
 
 #include "canvas/overlay_settings.h"
 #include "review/events/event_thresholds.h"
@@ -32,13 +34,31 @@ Event happening(EventKind kind, TrackId track, FrameIndex frame) {
     return event;
 }
 
-std::shared_ptr<const FoundEvents> found(std::vector<Event> events, int frames = 100, bool searched = true) {
+std::shared_ptr<const FoundEvents> found(std::vector<Event> events, int frames = 100, bool searched = true,
+                                         const std::shared_ptr<const FoundEvents>& former = nullptr) {
     auto run = std::make_shared<StoredTracks>();
     if (searched) run->footage.camera = CameraMotion::standing(0, frames - 1);
     run->footage.image_size = {240, 180};
     run->footage.last_frame = frames - 1;
     run->footage.scale.frame_rate_hz = 25;
-    return inOrder(run, {std::move(events), {}, {}}, {});
+    return inOrder(run, {std::move(events), {}, {}}, {}, {}, former);
+}
+
+Event happeningAt(EventKind kind, TrackId track, FrameIndex frame, double x) {
+    Event event = happening(kind, track, frame);
+    event.place = event.ground = {x, 60};
+    event.ground_frame = frame;
+    return event;
+}
+
+/// Ids of rows by the first track of their events.
+std::map<TrackId, int> idsByTrack(const EventsModel& model) {
+    std::map<TrackId, int> ids;
+    for (int row = 0; row < model.rowCount(); ++row) {
+        const EventEntry& entry = *model.recordAt(row);
+        ids[model.found()->eventAt(entry.position)->tracks.front()] = entry.id;
+    }
+    return ids;
 }
 
 /// Six stops, a U-turn and a vehicle that was lost.
@@ -114,6 +134,59 @@ class EventsListTest : public QObject {
         const QString stops = QStringLiteral("Stops");
         QCOMPARE(kindsShown(panel), QStringList({QStringLiteral("Lost"), QStringLiteral("Turns back"), stops, stops,
                                                  stops, stops, stops, stops}));
+    }
+
+    void whatWasFoundWhileARunWorkedIsTheSameWhenItIsDone() {
+        const auto so_far =
+            found({happeningAt(EventKind::stops, 1, 10, 20), happeningAt(EventKind::turns_back, 2, 20, 120),
+                   happeningAt(EventKind::turns_back, 3, 22, 220)});
+        EventsModel model;
+        const QAbstractItemModelTester tester(&model, QAbstractItemModelTester::FailureReportingMode::QtTest);
+        EventsPanel panel(&model, *actions_);
+        give(model, so_far);
+        const std::map<TrackId, int> before = idsByTrack(model);
+        QCOMPARE(kindsShown(panel).front(), QStringLiteral("Stops"));
+        panel.selectId(before.at(2));
+        QSignalSpy resets(&model, &QAbstractItemModel::modelReset);
+        // Its tracks have other numbers, times and places are a little others, and stops are no longer rare.
+        std::vector<Event> whole{happeningAt(EventKind::stops, 11, 11, 22),
+                                 happeningAt(EventKind::turns_back, 12, 19, 118),
+                                 happeningAt(EventKind::turns_back, 13, 22, 221)};
+        for (int i = 0; i < 7; ++i) whole.push_back(happeningAt(EventKind::stops, 20 + i, 120 + 10 * i, 20));
+        whole.push_back(happeningAt(EventKind::lost, 30, 190, 20));
+        give(model, found(whole, 200, true, so_far));
+        QCOMPARE(kindsShown(panel).mid(0, 4), QStringList({QStringLiteral("Lost"), QStringLiteral("Turns back"),
+                                                           QStringLiteral("Turns back"), QStringLiteral("Stops")}));
+        const std::map<TrackId, int> after = idsByTrack(model);
+        QCOMPARE(after.size(), whole.size());
+        QCOMPARE(after.at(11), before.at(1));
+        QCOMPARE(after.at(12), before.at(2));
+        QCOMPARE(after.at(13), before.at(3));
+        std::set<int> ids;
+        for (const auto& [track, id] : after) ids.insert(id);
+        QCOMPARE(ids.size(), whole.size());
+        QCOMPARE(panel.currentId(), before.at(2));
+        QVERIFY2(resets.isEmpty(), "the list is not begun anew");
+    }
+
+    void whatIsReadStaysInPlaceWhenOthersCome() {
+        std::vector<Event> events;
+        for (int i = 0; i < 300; ++i) events.push_back(happening(EventKind::stops, i + 1, 10 * i));
+        EventsModel model;
+        EventsPanel panel(&model, *actions_);
+        panel.resize(500, 500);
+        panel.show();
+        give(model, found(events, 3000));
+        QCoreApplication::processEvents();
+        QTableView& table = *panel.table();
+        table.verticalScrollBar()->setValue(100);
+        const auto top = [&] { return table.indexAt({0, 0}).data(id_role).toInt(); };
+        const int read = top();
+        QVERIFY(table.verticalScrollBar()->value() > 0);
+        events.push_back(happening(EventKind::lost, 400, 2990));  // comes first in the list
+        panel.keepPlace([&] { give(model, found(events, 3000)); });
+        QCoreApplication::processEvents();
+        QCOMPARE(top(), read);
     }
 
     void whatCouldNotBeSearchedIsListedAndExplained() {

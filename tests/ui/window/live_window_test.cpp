@@ -194,8 +194,13 @@ class LiveWindowTest : public QObject {
         QVERIFY(window.actions().next_event->isEnabled());
         QVERIFY2(!window.actions().relevant->isEnabled(), "tracks may still change when the run ends");
         QVERIFY(!review.judge({0}, Judgement::relevant));
+        bool emptied = false;
+        connect(&window.events(), &EventsDock::eventsShown, this,
+                [&] { emptied = emptied || (review.state() != EventReview::State::found && review.count() == 0); });
         QVERIFY(press(window.liveStrip(), QStringLiteral("Stop watching")));
         QVERIFY(waitFor([&] { return review.state() == EventReview::State::found; }));
+        disconnect(&window.events(), nullptr, this, nullptr);
+        QVERIFY2(!emptied, "what was found stays in the list until all is searched");
         QVERIFY(!review.asOf());
         QVERIFY(panel.headerText().contains(QStringLiteral("judged")));
         QVERIFY(!panel.headerText().contains(QStringLiteral("As of")));

@@ -43,7 +43,7 @@ EventReview::EventReview(ProjectSession& session, EventReviewAnswers answers, QO
     whenChanged(
         session_, this,
         {
-            {SessionChange::video, [this] { close(); }},
+            {SessionChange::video, [this] { otherVideo(); }},
             {{SessionChange::project, SessionChange::current_run, SessionChange::run_data, SessionChange::run_ended},
              [this] { refresh(); }},
         });
@@ -81,9 +81,9 @@ void EventReview::refresh() {
         if (!watched_ || watched_->id != data->record.id) watchRun(data->record);
         return;
     }
-    if (watched_) close();
+    const bool goes_on = endWatching(data->record.id);
     if (key_ == key) return;
-    const bool other_run = !key_ || key_->project != key.project || key_->run != key.run;
+    const bool other_run = !goes_on && (!key_ || key_->project != key.project || key_->run != key.run);
     key_ = key;
     data_ = data;
     tracks_.reset();
@@ -98,6 +98,26 @@ void EventReview::refresh() {
         openStore(data->record.sequence.id);
 }
 
+/// When a live source has ended, its recording is opened: what was found in it stays.
+void EventReview::otherVideo() {
+    const bool recorded = live_ && session_.currentRun() == live_->run && session_.project() == live_->project &&
+                          session_.media() && session_.media()->identity == recording_;
+    if (!recorded) close();
+}
+
+/// Answers whether what was found so far is listed on until the whole run is searched.
+bool EventReview::endWatching(int run_id) {
+    if (!watched_) return false;
+    if (watched_->id != run_id || !so_far_ || !found_) {
+        close();
+        return false;
+    }
+    look_again_.stop();
+    search_query_.cancel();
+    watched_.reset();
+    return true;
+}
+
 void EventReview::close() {
     store_query_.cancel();
     search_query_.cancel();
@@ -107,6 +127,8 @@ void EventReview::close() {
     key_.reset();
     data_.reset();
     watched_.reset();
+    live_.reset();
+    so_far_ = false;
     tracks_.reset();
     found_.reset();
     store_.reset();
@@ -122,6 +144,7 @@ void EventReview::setState(State state) {
 
 void EventReview::fail(const QString& message) {
     found_.reset();
+    so_far_ = false;
     key_.reset();  // so that it is tried again
     answers_.tell_problem(message);
     setState(State::failed);
@@ -157,7 +180,7 @@ void EventReview::search() {
     const auto work = [this, key = *key_, data = data_, tracks = tracks_, options = options_,
                        verdicts = store_->review().verdicts, corrections = store_->review().corrections,
                        zones = zonesOf(store_->review().zones), version = store_->version(),
-                       memo = session_.correctedTracks(),
+                       memo = session_.correctedTracks(), former = so_far_ ? found_ : nullptr,
                        corrections_made = corrections_made_](const BackgroundTask& task) mutable {
         if (!tracks) {
             ProjectFile project = ProjectFile::open(key.project, ProjectFile::Mode::read_only);
@@ -171,7 +194,7 @@ void EventReview::search() {
             });
         }
         if (task.stop().stop_requested()) return;
-        const auto found = findAndOrder(tracks, options, verdicts, zones);
+        const auto found = findAndOrder(tracks, options, verdicts, zones, former);
         task.tell([this, found, version] { adopt(found, version); });
     };
     search_query_.ask(
@@ -186,14 +209,17 @@ void EventReview::watchRun(const RunRecord& run) {
     next_look_ = {};
     setState(State::at_work);
     // Who watches a live source acts on what happens now; of a file all is there soon.
-    if (session_.liveSource() != nullptr) look_again_.start();
+    if (session_.liveSource() == nullptr) return;
+    live_ = RunKey{session_.project(), run.id};
+    recording_ = run.sequence.path;
+    look_again_.start();
 }
 
 void EventReview::searchSoFar() {
     if (!watched_ || session_.liveSource() == nullptr || LookClock::now() < next_look_) return;
     next_look_ = LookClock::time_point::max();  // until this look has ended
-    const auto work = [this, path = session_.project(), run = *watched_,
-                       options = options_](const BackgroundTask& task) {
+    const auto work = [this, path = session_.project(), run = *watched_, options = options_,
+                       former = found_](const BackgroundTask& task) {
         const LookClock::time_point begin = LookClock::now();
         ProjectFile project = ProjectFile::open(path, ProjectFile::Mode::read_only);
         const auto tracks = [&] {
@@ -202,7 +228,7 @@ void EventReview::searchSoFar() {
         }();
         const std::vector<Zone> zones = zonesOf(readReview(project, run.sequence.id).zones);
         if (task.stop().stop_requested()) return;
-        const auto found = findAndOrder(tracks, options, {}, zones);
+        const auto found = findAndOrder(tracks, options, {}, zones, former);
         const double seconds = std::chrono::duration<double>(LookClock::now() - begin).count();
         task.tell([this, found, run_id = run.id, seconds] { adoptSoFar(found, run_id, seconds); });
     };
@@ -220,11 +246,13 @@ void EventReview::adoptSoFar(const std::shared_ptr<const FoundEvents>& found, in
         next_look_ = LookClock::now() + std::chrono::milliseconds(static_cast<std::int64_t>(1000 * pause_s));
     if (found->run->shown_s.empty()) return;  // no frame is done yet
     found_ = found;
+    carried_ = found->carried;  // no verdict on any
+    so_far_ = true;
     setState(State::at_work);
 }
 
 std::optional<FrameIndex> EventReview::asOf() const {
-    if (!watched_ || !found_) return std::nullopt;
+    if (!so_far_ || !found_) return std::nullopt;
     return found_->run->footage.last_frame;
 }
 
@@ -239,6 +267,7 @@ void EventReview::adopt(const std::shared_ptr<const FoundEvents>& found, std::ui
     }
     found_ = found;
     carried_ = found->carried;
+    so_far_ = false;
     setState(State::found);
 }
 

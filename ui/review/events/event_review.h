@@ -63,7 +63,7 @@ class EventReview : public QObject {
     State state() const { return state_; }
     /// Null unless events were found, or some so far.
     const std::shared_ptr<const FoundEvents>& found() const { return found_; }
-    /// The last frame that was searched while a live source is watched; nothing when the list is that of a whole run.
+    /// The last frame that was searched while a live source was watched; nothing when the list is that of a whole run.
     std::optional<FrameIndex> asOf() const;
     std::size_t count() const { return found_ ? found_->queue.size() : 0; }
 
@@ -126,6 +126,8 @@ class EventReview : public QObject {
 
     void refresh();
     void close();
+    void otherVideo();
+    bool endWatching(int run_id);
     void openStore(int sequence_id);
     void search();
     void watchRun(const RunRecord& run);
@@ -154,6 +156,9 @@ class EventReview : public QObject {
     std::optional<RunKey> key_;
     std::shared_ptr<const RunData> data_;
     std::optional<RunRecord> watched_;                   ///< the run that is not done yet
+    std::optional<RunKey> live_;                         ///< the run of a live source that is watched, or was
+    std::string recording_;                              ///< its video
+    bool so_far_ = false;                                ///< what is found is what was found while it was watched
     std::chrono::steady_clock::time_point next_look_{};  ///< at what it found so far
     EventOptions options_;
     std::shared_ptr<const StoredTracks> tracks_;  ///< of the run above, once they were read

@@ -56,8 +56,9 @@ bool EventReview::mayWrite() {
 }
 
 bool EventReview::mayJudge() {
-    if (watched_) answers_.tell_notice(tr("events can be judged when the run has ended"));
-    return found_ && !watched_ && mayWrite();
+    const bool goes_on = watched_ || so_far_;
+    if (goes_on) answers_.tell_notice(tr("events can be judged when the run has ended"));
+    return found_ && !goes_on && mayWrite();
 }
 
 std::vector<Judged> EventReview::judgedAt(const std::vector<std::size_t>& positions) const {

@@ -166,14 +166,14 @@ void EventsDock::setActive(bool active) {
 void EventsDock::showEvents() {
     explainNothing();
     const auto& found = review_->found();
-    // While a run works it is read again and again; what was found before is the same still.
-    const bool goes_on = listed_so_far_ && review_->asOf();
+    // While a live run works it is read again and again; what was found before is the same still.
+    const bool goes_on = found && model_->found() && found->former.lock() == model_->found();
     if (found && found->run != listed_run_ && !goes_on) model_->forgetIds();
     listed_run_ = found ? found->run : nullptr;
-    listed_so_far_ = review_->asOf().has_value();
     panel_->showAsOf(review_->asOf());
     if (review_->state() != EventReview::State::failed) parts_.messages.dismissTopic(kEventsTopic);
-    model_->setEvents(found, [this](std::size_t place) { return review_->verdictAt(place); });
+    panel_->keepPlace(
+        [&] { model_->setEvents(found, [this](std::size_t place) { return review_->verdictAt(place); }); });
     showCounts();
     zones_->showZones();
     showMarks();

@@ -110,7 +110,6 @@ class EventsDock : public QObject {
     LeftList* left_list_ = nullptr;  ///< once it was wanted
     DelayedCall marks_due_;
     std::shared_ptr<const StoredTracks> listed_run_;  ///< whose events have their ids
-    bool listed_so_far_ = false;                      ///< while that run works
     bool active_ = true;
     std::function<void(int id)> tell_shown_ = [](int) {};
 };

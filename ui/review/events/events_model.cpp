@@ -1,6 +1,7 @@
 #include "review/events/events_model.h"
 
 #include <QStringList>
+#include <set>
 #include <utility>
 
 #include "review/events/event_text.h"
@@ -24,14 +25,14 @@ void takeOver(EventEntry& entry, const Verdict* verdict) {
 void EventsModel::setEvents(const std::shared_ptr<const FoundEvents>& found,
                             const std::function<const Verdict*(std::size_t)>& verdict_at) {
     std::vector<EventEntry> entries;
-    std::map<EventIdentity, int> doubles;
-    for (std::size_t i = 0; found && i < found->queue.size(); ++i) {
-        entries.push_back({idAt(*found, i, doubles), i, Judgement::open, false, {}, {}, {}});
+    const std::vector<int> ids = found ? idsOf(*found) : std::vector<int>();
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        entries.push_back({ids[i], i, Judgement::open, false, {}, {}, {}});
         takeOver(entries.back(), verdict_at(i));
     }
     const bool known_before = scale().gsd_known;
     found_ = found;
-    replaceRecords(std::move(entries));
+    mergeRecords(std::move(entries));
     if (scale().gsd_known != known_before) emit headerDataChanged(Qt::Horizontal, lowest_column, highest_column);
 }
 
@@ -57,15 +58,32 @@ void EventsModel::forgetIds() {
     ids_.clear();
 }
 
-int EventsModel::idAt(const FoundEvents& found, std::size_t position, std::map<EventIdentity, int>& doubles) {
-    const Event* event = found.eventAt(position);
-    const FrameSpan frames = found.framesAt(position);
-    EventIdentity identity{listedKindAt(found, position), event != nullptr ? event->tracks : std::vector<TrackId>(),
-                           frames.first, frames.last, 0};
-    std::get<4>(identity) = doubles[identity]++;
-    const auto [place, is_new] = ids_.try_emplace(identity, next_id_);
-    if (is_new) ++next_id_;
-    return place->second;
+std::vector<int> EventsModel::idsOf(const FoundEvents& found) {
+    std::vector<EventIdentity> identities;
+    std::vector<int> ids;
+    std::map<EventIdentity, int> doubles;
+    std::set<int> given;
+    for (std::size_t i = 0; i < found.queue.size(); ++i) {
+        const Event* event = found.eventAt(i);
+        const FrameSpan frames = found.framesAt(i);
+        EventIdentity identity{listedKindAt(found, i), event != nullptr ? event->tracks : std::vector<TrackId>(),
+                               frames.first, frames.last, 0};
+        std::get<4>(identity) = doubles[identity]++;
+        const auto known = ids_.find(identity);
+        ids.push_back(known != ids_.end() && given.insert(known->second).second ? known->second : 0);
+        identities.push_back(std::move(identity));
+    }
+    // What went on meanwhile, or has other tracks since the run is done, is the same still.
+    const bool follows = found_ && found.former.lock() == found_;
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        if (ids[i] != 0) continue;
+        const auto before = follows ? found.place_in_former.at(i) : std::nullopt;
+        const EventEntry* listed = before ? recordAt(static_cast<int>(*before)) : nullptr;
+        ids[i] = listed != nullptr && given.insert(listed->id).second ? listed->id : next_id_++;
+        given.insert(ids[i]);
+        ids_[identities[i]] = ids[i];
+    }
+    return ids;
 }
 
 QVariant EventsModel::data(const QModelIndex& index, int role) const {

@@ -16,7 +16,7 @@ namespace eyrie::ui {
 
 /// A row: an event, or a stretch that could not be searched, with what is said about it.
 struct EventEntry {
-    int id = 0;                ///< the same event keeps it when thresholds change
+    int id = 0;                ///< the same event keeps it when thresholds change, and while a live run goes on
     std::size_t position = 0;  ///< in the queue
     Judgement judgement = Judgement::open;
     bool starred = false;
@@ -76,7 +76,8 @@ class EventsModel : public RecordModel<EventEntry> {
     /// Kind, tracks, first and last frame, and which of those that have the same.
     using EventIdentity = std::tuple<int, std::vector<TrackId>, FrameIndex, FrameIndex, int>;
 
-    int idAt(const FoundEvents& found, std::size_t position, std::map<EventIdentity, int>& doubles);
+    /// By position. Takes over those of the list that is shown, see FoundEvents::former.
+    std::vector<int> idsOf(const FoundEvents& found);
     QString textOf(const EventEntry& entry, int column) const;
     QVariant sortValueOf(const EventEntry& entry, int column) const;
     /// Of the run that is listed; the default where none is.

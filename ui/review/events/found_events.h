@@ -22,6 +22,10 @@ struct FoundEvents {
     std::vector<QueueItem> queue;
     CarriedVerdicts carried;  ///< verdicts when it was made
     std::shared_ptr<const DoingsByTrack> doings;
+    std::weak_ptr<const FoundEvents> former;  ///< the list of the same run that this one takes the place of, if any
+    /// By place in the queue: the place there of the same thing, found as verdicts find their events; nothing: it is
+    /// new. Empty without a former list.
+    std::vector<std::optional<std::size_t>> place_in_former;
 
     /// The event at a place of the queue; null for a stretch that could not be searched.
     const Event* eventAt(std::size_t position) const {
@@ -55,13 +59,16 @@ struct FoundEvents {
     }
 };
 
-/// Searches stored tracks for events and gives them the verdicts they have.
+/// Searches stored tracks for events and gives them the verdicts they have. `former`: what was found in the same run
+/// when it was not done yet, whose tracks and their numbers may have been others; null: nothing.
 std::shared_ptr<const FoundEvents> findAndOrder(const std::shared_ptr<const StoredTracks>& run,
                                                 const EventOptions& options, const std::map<int, Verdict>& verdicts,
-                                                const std::vector<Zone>& zones = {});
+                                                const std::vector<Zone>& zones = {},
+                                                const std::shared_ptr<const FoundEvents>& former = nullptr);
 /// The same with what a search told.
 std::shared_ptr<const FoundEvents> inOrder(const std::shared_ptr<const StoredTracks>& run, TrackFindings findings,
-                                           const std::map<int, Verdict>& verdicts, const std::vector<Zone>& zones = {});
+                                           const std::map<int, Verdict>& verdicts, const std::vector<Zone>& zones = {},
+                                           const std::shared_ptr<const FoundEvents>& former = nullptr);
 
 /// Kinds as they are listed: those of events by their numbers, and behind them what could not be searched.
 inline constexpr int kListedKinds = kEventKinds + 1;

@@ -3,6 +3,8 @@
 #include <QAbstractTableModel>
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 #include <vector>
@@ -49,6 +51,22 @@ class RecordModel : public QAbstractTableModel {
         endInsertRows();
     }
 
+    /// The same where rows may also come between others and change places: all that stays is kept by the view, but for
+    /// very many that come or go.
+    void mergeRecords(std::vector<Record> records) {
+        if (startsLikeThis(records) || runsOfNew(records) > kMostInsertions || !removeMissing(records)) {
+            replaceRecords(std::move(records));
+            return;
+        }
+        std::unordered_map<int, int> row_of;
+        for (std::size_t row = 0; row < records.size(); ++row) row_of[records[row].id] = static_cast<int>(row);
+        // First what they hold, so that whoever sorts and filters meanwhile sees nothing of the past.
+        for (Record& mine : records_) mine = records[static_cast<std::size_t>(row_of.at(mine.id))];
+        if (rowCount() > 0) emit dataChanged(index(0, 0), index(rowCount() - 1, columnCount() - 1));
+        arrange(row_of);
+        insertMissing(records);
+    }
+
     void changeRecord(int row, Record record) {
         records_[static_cast<std::size_t>(row)] = std::move(record);
         emit dataChanged(index(row, 0), index(row, columnCount() - 1));
@@ -62,6 +80,61 @@ class RecordModel : public QAbstractTableModel {
  private:
     /// More rows than that are quicker shown anew.
     static constexpr std::ptrdiff_t kMostRemovals = 16;
+    static constexpr int kMostInsertions = 64;  ///< each of rows that follow each other
+
+    /// How often rows that are new follow one that is not.
+    int runsOfNew(const std::vector<Record>& records) const {
+        std::unordered_set<int> mine;
+        for (const Record& record : records_) mine.insert(record.id);
+        int runs = 0;
+        bool was_new = false;
+        for (const Record& record : records) {
+            const bool is_new = !mine.contains(record.id);
+            runs += is_new && !was_new ? 1 : 0;
+            was_new = is_new;
+        }
+        return runs;
+    }
+
+    /// Puts the rows in the order in which they will stand.
+    void arrange(const std::unordered_map<int, int>& row_of) {
+        const auto later = [&](const Record& a, const Record& b) { return row_of.at(a.id) < row_of.at(b.id); };
+        if (std::is_sorted(records_.begin(), records_.end(), later)) return;
+        emit layoutAboutToBeChanged();
+        std::vector<int> order(records_.size());  // by new row, the old one
+        std::iota(order.begin(), order.end(), 0);
+        const auto at = [&](int row) -> Record& { return records_[static_cast<std::size_t>(row)]; };
+        std::sort(order.begin(), order.end(), [&](int a, int b) { return later(at(a), at(b)); });
+        std::vector<int> new_row(order.size());
+        std::vector<Record> arranged;
+        for (const int row : order) {
+            new_row[static_cast<std::size_t>(row)] = static_cast<int>(arranged.size());
+            arranged.push_back(std::move(at(row)));
+        }
+        records_ = std::move(arranged);
+        const QModelIndexList before = persistentIndexList();
+        QModelIndexList after;
+        for (const QModelIndex& each : before)
+            after.push_back(index(new_row[static_cast<std::size_t>(each.row())], each.column()));
+        changePersistentIndexList(before, after);
+        emit layoutChanged();
+    }
+
+    /// Inserts what `records` has besides; all others are there, in the same order.
+    void insertMissing(const std::vector<Record>& records) {
+        for (std::size_t row = 0; row < records.size(); ++row) {
+            const auto is_next = [&](const Record& one) { return row < records_.size() && one.id == records_[row].id; };
+            if (is_next(records[row])) continue;
+            std::size_t end = row + 1;
+            while (end < records.size() && !is_next(records[end])) ++end;
+            beginInsertRows({}, static_cast<int>(row), static_cast<int>(end) - 1);
+            records_.insert(records_.begin() + static_cast<std::ptrdiff_t>(row),
+                            records.begin() + static_cast<std::ptrdiff_t>(row),
+                            records.begin() + static_cast<std::ptrdiff_t>(end));
+            endInsertRows();
+            row = end - 1;
+        }
+    }
 
     /// Removes the rows that `records` does not have, if they are few. Answers whether it did.
     bool removeMissing(const std::vector<Record>& records) {

@@ -184,6 +184,17 @@ void TablePanel::selectId(int id) {
     table_->selectionModel()->clear();
 }
 
+void TablePanel::keepPlace(const std::function<void()>& change) {
+    const QModelIndex top = table_->indexAt({0, 0});
+    const int id = table_->verticalScrollBar()->value() > 0 && top.isValid() ? idOf(top) : 0;
+    change();
+    for (int row = 0; id != 0 && row < proxy_->rowCount(); ++row) {
+        if (idOf(proxy_->index(row, 0)) != id) continue;
+        table_->scrollTo(proxy_->index(row, top.column()), QAbstractItemView::PositionAtTop);
+        return;
+    }
+}
+
 int TablePanel::neededWidth(int column) const {
     // The arrow of the order needs room in the column that has it only.
     constexpr int kMargin = 14;

@@ -2,6 +2,7 @@
 
 #include <QList>
 #include <QWidget>
+#include <functional>
 #include <optional>
 
 #include "widgets/delayed_call.h"
@@ -34,6 +35,8 @@ class TablePanel : public QWidget {
     void selectId(int id);
     /// The selected rows, or all shown ones when none is selected, as tab-separated text with headers.
     QString selectedText() const;
+    /// Does what brings other rows; where one has scrolled down, the row at the top stays there, if it is still shown.
+    void keepPlace(const std::function<void()>& change);
     /// Ids of all selected rows, from top to bottom.
     QList<int> selectedIds() const;
     void setFilterText(const QString& text);
