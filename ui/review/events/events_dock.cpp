@@ -8,6 +8,7 @@
 #include "review/bookmarks/bookmarks.h"
 #include "review/bookmarks/bookmarks_panel.h"
 #include "review/correct/track_correcting.h"
+#include "review/events/event_kind_marks.h"
 #include "review/events/event_review.h"
 #include "review/events/event_text.h"
 #include "review/events/event_thresholds.h"
@@ -261,8 +262,12 @@ void EventsDock::showMarks() {
             {entry.id, frames.first, frames.last});
     }
     for (int kind = 0; kind < kListedKinds; ++kind) {
-        kinds[static_cast<std::size_t>(kind)].name = listedKindText(kind);
-        kinds[static_cast<std::size_t>(kind)].colour = kind;
+        TimelineKind& row = kinds[static_cast<std::size_t>(kind)];
+        const EventKindMark& mark = markOf(kind);
+        row.name = listedKindText(kind);
+        row.on_light = groupColour(mark.group, false);
+        row.on_dark = groupColour(mark.group, true);
+        row.shape = mark.shape;
     }
     parts_.timeline.setKinds(std::move(kinds));
     if (active_)
