@@ -165,6 +165,47 @@ TEST(TrackLooks, PicturesThatCannotBeReadAreCountedAndTheOthersLookedAt) {
                     .looks.empty());
 }
 
+TEST(TrackLooks, AReadingThatIsStoppedGoesOnWhereItWasAndReadsNothingTwice) {
+    const std::vector<EventTrack> tracks{trackOver(1, 0, 100), trackOver(2, 200, 300)};
+    const auto picture = [](FrameIndex index) {
+        Frame frame;
+        frame.index = index;
+        frame.gray = cv::Mat(100, 400, CV_8UC1, cv::Scalar(90));
+        cv::rectangle(frame.gray, {index + 42, 36, 16, 8}, cv::Scalar(200), cv::FILLED);
+        return frame;
+    };
+    std::vector<FrameIndex> seen;
+    std::stop_source stop;
+    const auto open = [&]() -> ReadPicture {
+        return [&](FrameIndex index) {
+            seen.push_back(index);
+            if (seen.size() == 2) stop.request_stop();
+            return picture(index);
+        };
+    };
+    LookReading reading;
+    double share = 0;
+    const auto tell = [&](double done) { share = done; };
+    reading.goOn(tracks, open, tell, stop.get_token());
+    EXPECT_EQ(seen.size(), 2U);
+    // Stopped while it is opened: nothing counts as unreadable.
+    const auto interrupted = []() -> ReadPicture { throw std::runtime_error("stopped"); };
+    EXPECT_EQ(reading.goOn(tracks, interrupted, tell, stop.get_token()).missing(), "");
+    const LooksRead all = reading.goOn(tracks, open, tell, {});
+    EXPECT_EQ(seen, LookTaker(tracks).frames());
+    EXPECT_EQ(share, 1);
+    EXPECT_EQ(all.missing(), "");
+    const LooksRead at_once = readLooks(
+        tracks, [&] { return ReadPicture(picture); }, [](double) {}, {});
+    ASSERT_EQ(all.looks.size(), at_once.looks.size());
+    for (const auto& [track, look] : at_once.looks) {
+        EXPECT_EQ(all.looks.at(track).colours, look.colours);
+        EXPECT_EQ(all.looks.at(track).gradients, look.gradients);
+    }
+    // Another ranking opens nothing.
+    EXPECT_EQ(reading.goOn(tracks, interrupted, tell, {}).looks.size(), 2U);
+}
+
 TEST(LikenessChoice, IsNamedInWords) {
     EXPECT_EQ(LikenessChoice::named({"looks", "path"}), (LikenessChoice{true, false, false, true}));
     EXPECT_THAT(LikenessChoice().names(), testing::ElementsAre("path", "speed", "size"));

@@ -156,6 +156,11 @@ TEST_F(RunStoreTest, HomographiesAreReadFromAFrameOn) {
         EXPECT_EQ(read.to_frame, 3 + i);
         EXPECT_EQ(read.matrix, written.motion.registration.current_from_previous.matrix);
     }
+    const auto some = RunStore(project).homographies(run, 1, 2);
+    ASSERT_EQ(some.size(), 2U);
+    EXPECT_EQ(some.front().to_frame, 1);
+    EXPECT_EQ(some.back().to_frame, 2);
+    EXPECT_TRUE(RunStore(project).homographies(run, 3, 2).empty());
 }
 
 TEST_F(RunStoreTest, RegistrationsSayHowTheyEnded) {

@@ -2,6 +2,7 @@
 
 #include <QImage>
 #include <QRectF>
+#include <QString>
 
 #include "canvas/view_transform.h"
 
@@ -18,8 +19,8 @@ struct CanvasPlace {
     QRectF view;          ///< logical px
 };
 
-/// Something that is done with the mouse on the canvas, and what it draws over the picture. The canvas asks it before
-/// it pans, zooms or selects itself; whatever answers true is done.
+/// Something that is done with the mouse on the canvas, or with keys that stand for it (KeyPointer), and what it draws
+/// over the picture. The canvas asks it before it pans, zooms or selects itself; whatever answers true is done.
 class CanvasTool {
  public:
     virtual ~CanvasTool() = default;
@@ -32,6 +33,14 @@ class CanvasTool {
     virtual void leave() = 0;
     /// Nothing while the canvas' own shape holds.
     virtual const QCursor* cursor() const = 0;
+    /// What it wants of the user, for the lower edge of the view, where the canvas writes it; empty: nothing.
+    virtual QString hint(const CanvasPlace&) const { return {}; }
+    /// Whether it waits for places now, so that keys may set them, too.
+    virtual bool takesPlaces() const { return true; }
+    /// Whether a press at a place of the view takes hold of something until the button is let go.
+    virtual bool dragsFrom(QPointF, const CanvasPlace&) const { return false; }
+    /// Takes the last place back, if it has any; answers whether it did.
+    virtual bool takeBack() { return false; }
 };
 
 }  // namespace eyrie::ui

@@ -10,6 +10,7 @@
 #include "canvas/canvas_tool.h"
 #include "canvas/drawing/caption_placer.h"
 #include "canvas/drawing/edged_painter.h"
+#include "canvas/drawing/tool_hint.h"
 #include "canvas/layers/overlay_table.h"
 #include "canvas/layers/track_layer.h"
 
@@ -118,6 +119,7 @@ void VideoView::setBadgeOnRight(bool on_right) {
 
 void VideoView::setTool(CanvasTool* tool) {
     tool_ = tool;
+    pointer_.hide();
     updateCursorShape();
     update();
 }
@@ -128,6 +130,54 @@ bool VideoView::toolTakes(bool (CanvasTool::*handler)(const QMouseEvent&, const 
     const bool taken = (tool_->*handler)(event, {transform_, frame_.image, QRectF(rect())});
     if (!drag_from_) updateCursorShape();
     return taken;
+}
+
+bool VideoView::toolTakesKeys() const {
+    return tool_ != nullptr && tool_->takesPlaces();
+}
+
+std::optional<QPointF> VideoView::keyPointer() const {
+    return toolTakesKeys() ? pointer_.at() : std::nullopt;
+}
+
+bool VideoView::takesToolKey(const QKeyEvent& key) {
+    if (!toolTakesKeys() || !KeyPointer::owns(key)) return false;
+    if (const auto step = KeyPointer::stepOf(key)) {
+        movePointer(*step);
+    } else if (key.key() == Qt::Key_Backspace) {
+        if (tool_->takeBack()) pointer_.forget();
+    } else if (!key.isAutoRepeat()) {
+        setByKey(key);
+    }
+    update();
+    return true;
+}
+
+void VideoView::movePointer(QPointF step) {
+    pointer_.showAt(anchor());
+    const QPointF beyond = pointer_.moveBy(step / devicePixelRatioF(), QRectF(rect()).adjusted(0, 0, -1, -1));
+    if (!beyond.isNull() && !transform_.fitted()) {  // the picture comes to meet it
+        transform_.panBy(-beyond);
+        transformWasChanged();
+    }
+    pointer_.point(*tool_, {transform_, frame_.image, QRectF(rect())});
+    reportCursor(*pointer_.at());
+}
+
+void VideoView::setByKey(const QKeyEvent& key) {
+    // The first one shows where it would be.
+    if (pointer_.at())
+        pointer_.set(key, *tool_, {transform_, frame_.image, QRectF(rect())});
+    else
+        pointer_.showAt(anchor());
+    updateCursorShape();
+    update();
+}
+
+void VideoView::mouseTakesOver() {
+    if (!pointer_.at()) return;
+    pointer_.hide();
+    update();
 }
 
 void VideoView::fit() {
@@ -177,6 +227,7 @@ void VideoView::setGround(const std::optional<QTransform>& ground_from_image) {
 }
 
 QPointF VideoView::anchor() const {
+    if (const auto at = keyPointer()) return *at;
     const QPointF cursor = mapFromGlobal(QPointF(QCursor::pos()));
     if (underMouse() && rect().contains(cursor.toPoint())) return cursor;
     return {width() / 2.0, height() / 2.0};
@@ -223,7 +274,17 @@ void VideoView::paint(QPainter& painter) const {
     if (frame_.result && marked) paintInspectedArea(painter);
     if (marked) paintPlaceMark(painter);
     paintBadge(painter);
-    if (tool_ != nullptr) tool_->paint(painter, {transform_, frame_.image, QRectF(rect())});
+    if (tool_ != nullptr) paintTool(painter);
+}
+
+void VideoView::paintTool(QPainter& painter) const {
+    const CanvasPlace place{transform_, frame_.image, QRectF(rect())};
+    tool_->paint(painter, place);
+    if (!tool_->takesPlaces()) return;
+    pointer_.paint(painter);
+    const QString wanted = tool_->hint(place);
+    paintToolHint(painter, place.view,
+                  wanted.isEmpty() ? pointer_.hint() : wanted + QLatin1Char('\n') + pointer_.hint());
 }
 
 void VideoView::paintInspectedArea(QPainter& painter) const {
@@ -314,7 +375,9 @@ bool VideoView::event(QEvent* event) {
     if (event->type() == QEvent::ShortcutOverride) {
         // The space bar both plays (tapped) and pans (held while dragging), so the canvas decides on its release.
         const auto* key = static_cast<QKeyEvent*>(event);
-        if (key->key() == Qt::Key_Space && key->modifiers() == Qt::NoModifier) {
+        const bool space = key->key() == Qt::Key_Space && key->modifiers() == Qt::NoModifier;
+        // Arrows step frames or move boxes, Backspace rejects: not while a tool waits for places.
+        if (space || (toolTakesKeys() && KeyPointer::owns(*key))) {
             event->accept();
             return true;
         }
@@ -323,6 +386,7 @@ bool VideoView::event(QEvent* event) {
 }
 
 void VideoView::mousePressEvent(QMouseEvent* event) {
+    mouseTakesOver();
     if (toolTakes(&CanvasTool::press, *event)) return;
     if (event->button() != Qt::LeftButton && event->button() != Qt::MiddleButton) return;
     drag_from_ = event->position();
@@ -331,6 +395,7 @@ void VideoView::mousePressEvent(QMouseEvent* event) {
 }
 
 void VideoView::mouseMoveEvent(QMouseEvent* event) {
+    mouseTakesOver();
     reportCursor(event->position());
     if (toolTakes(&CanvasTool::move, *event)) return;
     if (!drag_from_) return;
@@ -372,7 +437,7 @@ void VideoView::mouseDoubleClickEvent(QMouseEvent* event) {
 
 void VideoView::keyPressEvent(QKeyEvent* event) {
     if (event->key() != Qt::Key_Space) {
-        QWidget::keyPressEvent(event);
+        if (!takesToolKey(*event)) QWidget::keyPressEvent(event);
         return;
     }
     if (event->isAutoRepeat()) return;
@@ -389,7 +454,11 @@ void VideoView::keyReleaseEvent(QKeyEvent* event) {
     const bool tapped = space_held_ && !space_panned_;
     space_held_ = false;
     updateCursorShape();
-    if (tapped) emit playToggled();
+    if (!tapped) return;
+    if (keyPointer())
+        setByKey(*event);
+    else
+        emit playToggled();
 }
 
 void VideoView::contextMenuEvent(QContextMenuEvent* event) {

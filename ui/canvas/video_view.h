@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "canvas/key_pointer.h"
 #include "canvas/marks/place_mark.h"
 #include "canvas/overlay_settings.h"
 #include "canvas/view_frame.h"
@@ -51,6 +52,8 @@ class VideoView : public QWidget {
     /// What the mouse does and what is drawn on top; null: the canvas' own. Must outlive the view, or be taken away.
     void setTool(CanvasTool* tool);
     CanvasTool* tool() const { return tool_; }
+    /// Where the cross is that keys move while a tool takes places, view coordinates; nothing while there is none.
+    std::optional<QPointF> keyPointer() const;
 
     const ViewTransform& transform() const { return transform_; }
     void fit();
@@ -107,10 +110,16 @@ class VideoView : public QWidget {
     void paintInspectedArea(QPainter& painter) const;
     void paintPlaceMark(QPainter& painter) const;
     void paintBadge(QPainter& painter) const;
+    void paintTool(QPainter& painter) const;
     void adoptSize();
     void transformWasChanged();
     void reportCursor(QPointF view_point);
     QPointF anchor() const;
+    bool toolTakesKeys() const;
+    bool takesToolKey(const QKeyEvent& key);
+    void movePointer(QPointF step);
+    void setByKey(const QKeyEvent& key);
+    void mouseTakesOver();
     void updateCursorShape();
     bool toolTakes(bool (CanvasTool::*handler)(const QMouseEvent&, const CanvasPlace&), const QMouseEvent& event);
 
@@ -129,6 +138,7 @@ class VideoView : public QWidget {
     bool space_held_ = false;
     bool space_panned_ = false;
     CanvasTool* tool_ = nullptr;
+    KeyPointer pointer_;
 };
 
 }  // namespace eyrie::ui

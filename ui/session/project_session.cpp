@@ -318,8 +318,9 @@ bool ProjectSession::detailsKept(FrameIndex frame) const {
 const TrackSummary* ProjectSession::trackSummary(TrackId track) const {
     if (!run_data_) return nullptr;
     const auto& tracks = run_data_->tracks;
-    const auto found = std::find_if(tracks.begin(), tracks.end(), [track](const auto& one) { return one.id == track; });
-    return found != tracks.end() ? &*found : nullptr;
+    const auto found = std::lower_bound(tracks.begin(), tracks.end(), track,
+                                        [](const TrackSummary& one, TrackId wanted) { return one.id < wanted; });
+    return found != tracks.end() && found->id == track ? &*found : nullptr;
 }
 
 const RunRecord* ProjectSession::ownRun() const {

@@ -116,14 +116,23 @@ void KeySheet::fill(const QString& first) {
                 showKeys(item);
             }
         }
-    const std::pair<QString, QString> mouse[] = {{tr("Zoom to the cursor"), tr("Wheel")},
-                                                 {tr("Move the picture"), tr("Drag, also with Space held")},
-                                                 {tr("Select a track"), tr("Click")},
-                                                 {tr("Zoom in, again: fit"), tr("Double-click")},
-                                                 {tr("Go through the video"), tr("Drag the timeline")},
-                                                 {tr("Zoom the timeline; Shift scrolls it"), tr("Wheel on it")}};
-    auto* title = heading(list_, tr("Mouse"));
-    for (const auto& [what, how] : mouse) new QTreeWidgetItem(title, {what, how});
+    const auto told = [this](const QString& heading_text, std::initializer_list<std::pair<QString, QString>> rows) {
+        auto* title = heading(list_, heading_text);
+        for (const auto& [what, how] : rows) new QTreeWidgetItem(title, {what, how});
+    };
+    told(tr("While something is drawn or measured"),
+         {{tr("Move a cross over the picture by 1 px"), tr("Arrow keys")},
+          {tr("Move the cross by 10 px"), tr("Shift and an arrow key")},
+          {tr("Click at the cross; begin and end a box"), tr("Enter or Space")},
+          {tr("Double-click at the cross"), tr("Enter or Space again in the same place")},
+          {tr("Take the last point back"), tr("Backspace")},
+          {tr("Cancel"), tr("Esc")}});
+    told(tr("Mouse"), {{tr("Zoom to the cursor"), tr("Wheel")},
+                       {tr("Move the picture"), tr("Drag, also with Space held")},
+                       {tr("Select a track"), tr("Click")},
+                       {tr("Zoom in, again: fit"), tr("Double-click")},
+                       {tr("Go through the video"), tr("Drag the timeline")},
+                       {tr("Zoom the timeline; Shift scrolls it"), tr("Wheel on it")}});
 }
 
 void KeySheet::showKeys(QTreeWidgetItem* item) {

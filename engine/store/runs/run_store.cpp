@@ -241,7 +241,7 @@ std::vector<FrameSummary> RunStore::frameSummaries(int run_id) const {
     });
 }
 
-std::vector<Homography> RunStore::homographies(int run_id, FrameIndex from) const {
+std::vector<Homography> RunStore::homographies(int run_id, FrameIndex from, FrameIndex last) const {
     return guarded(project_.path(), "reading the registration of run " + std::to_string(run_id), [&] {
         SQLite::Statement statement(project_.database(), kRegistrationRows);
         statement.bind(1, run_id);
@@ -249,7 +249,9 @@ std::vector<Homography> RunStore::homographies(int run_id, FrameIndex from) cons
         std::vector<Homography> homographies;
         while (statement.executeStep()) {
             RowReader row(statement);
-            homographies.push_back(homographyOf(row));
+            const Homography homography = homographyOf(row);
+            if (homography.to_frame > last) break;  // rows ascend
+            homographies.push_back(homography);
         }
         return homographies;
     });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -126,8 +127,10 @@ class RunStore {
     std::optional<RunRecord> run(int run_id) const;
     std::vector<std::pair<std::string, std::string>> parameters(int run_id) const;
     std::vector<FrameSummary> frameSummaries(int run_id) const;  ///< ascending frames
-    /// How each frame from `from` on was registered onto the one before it, ascending frames; for trails.
-    std::vector<Homography> homographies(int run_id, FrameIndex from = 0) const;
+    /// How each frame from `from` to `last`, both included, was registered onto the one before it, ascending frames;
+    /// for trails. What lies behind `last` is not read.
+    std::vector<Homography> homographies(int run_id, FrameIndex from = 0,
+                                         FrameIndex last = std::numeric_limits<FrameIndex>::max()) const;
     /// The same of all frames, with how each registration ended; for labelling over a moving camera.
     std::vector<Registration> registrations(int run_id) const;
     /// The same, one by one.

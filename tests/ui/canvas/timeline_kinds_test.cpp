@@ -23,7 +23,7 @@ class TimelineKindsTest : public QObject {
         return axis;
     }
     static TimelineKind kind(const QString& name, std::vector<TimelineHappening> happenings) {
-        return {name, 0, std::move(happenings)};
+        return {name, QColor(0, 60, 120), QColor(120, 200, 255), BarShape::full_height, std::move(happenings)};
     }
     static TimelineKind severalOf(const QString& name, int count) {
         TimelineKind several = kind(name, {});
@@ -97,6 +97,29 @@ class TimelineKindsTest : public QObject {
         for (TimelineKind& each : many) each.happenings.resize(3);
         QCOMPARE(TimelineKinds(many).nameOf(0), QStringLiteral("kind 0"));  // as many of each
         QCOMPARE(TimelineKinds(many).rowCount(), TimelineKinds::kMostRows);
+    }
+
+    void aRowHasTheColourOfItsKindOnBothGroundsAndItsShape() {
+        std::vector<TimelineKind> two = stopsAndStands();
+        two[0].shape = BarShape::edges;
+        const TimelineKinds kinds(two);
+        QPalette light;
+        light.setColor(QPalette::Window, Qt::white);
+        light.setColor(QPalette::Base, Qt::white);
+        light.setColor(QPalette::WindowText, Qt::black);
+        QPalette dark;
+        dark.setColor(QPalette::Window, Qt::black);
+        dark.setColor(QPalette::Base, Qt::black);
+        dark.setColor(QPalette::WindowText, Qt::white);
+        QCOMPARE(kinds.colourOf(0, light), QColor(0, 60, 120));
+        QCOMPARE(kinds.colourOf(0, dark), QColor(120, 200, 255));
+        QCOMPARE(kinds.shapeOf(0), BarShape::edges);
+        QCOMPARE(kinds.shapeOf(1), BarShape::full_height);
+        const QRectF bar(10, 20, 30, 4);
+        QCOMPARE(filledParts(BarShape::full_height, bar), (std::vector<QRectF>{bar}));
+        QCOMPARE(filledParts(BarShape::upper_half, bar), (std::vector<QRectF>{{10, 20, 30, 2}}));
+        QCOMPARE(filledParts(BarShape::lower_half, bar), (std::vector<QRectF>{{10, 22, 30, 2}}));
+        QCOMPARE(filledParts(BarShape::edges, bar), (std::vector<QRectF>{{10, 20, 30, 1}, {10, 23, 30, 1}}));
     }
 
     void aPlaceTellsKindAndCountAndTheNearest() {

@@ -351,6 +351,20 @@ class TablesTest : public QObject {
         for (int count = 1000; count <= 5000; count += 1000) model.setTracks(several(count, sampleTrack), {});
         panel.selectId(4000);
         QCOMPARE(panel.currentId(), 4000);
+        // Rows lie elsewhere once the list is another or in another order.
+        panel.table()->sortByColumn(TracksModel::id_column, Qt::DescendingOrder);
+        panel.selectId(17);
+        QCOMPARE(panel.currentId(), 17);
+        model.setTracks(several(20, sampleTrack), {});
+        panel.selectId(4000);
+        QCOMPARE(panel.currentId(), 0);
+        panel.selectId(20);
+        QCOMPARE(panel.currentId(), 20);
+        panel.setFilterText(QStringLiteral("no such track"));
+        panel.selectId(19);
+        QCOMPARE(panel.currentId(), 0);
+        panel.setFilterText(QString());
+        QCOMPARE(panel.currentId(), 19);
     }
 
     void looksRightInBothThemes() {

@@ -3,7 +3,6 @@
 #include <QCoreApplication>
 #include <QStringList>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -30,6 +29,22 @@ double distanceTo(const TimelineKinds::Bar& bar, double x) {
 
 }  // namespace
 
+std::vector<QRectF> filledParts(BarShape shape, const QRectF& bar) {
+    const double half = bar.height() / 2;
+    const double edge = bar.height() / 4;
+    switch (shape) {
+        case BarShape::full_height:
+            break;
+        case BarShape::upper_half:
+            return {bar.adjusted(0, 0, 0, -half)};
+        case BarShape::lower_half:
+            return {bar.adjusted(0, half, 0, 0)};
+        case BarShape::edges:
+            return {bar.adjusted(0, 0, 0, edge - bar.height()), bar.adjusted(0, bar.height() - edge, 0, 0)};
+    }
+    return {bar};
+}
+
 TimelineKinds::TimelineKinds(std::vector<TimelineKind> kinds) {
     std::erase_if(kinds, [](const TimelineKind& kind) { return kind.happenings.empty(); });
     // What is rare is what one looks for: it has a row of its own.
@@ -53,7 +68,10 @@ TimelineKinds::TimelineKinds(std::vector<TimelineKind> kinds) {
 void TimelineKinds::add(Row& row, TimelineKind kind) {
     for (const TimelineHappening& happening : kind.happenings) row.entries.push_back({happening, row.names.size()});
     row.counts.push_back(static_cast<int>(kind.happenings.size()));
-    row.colour = row.names.empty() ? kind.colour : -1;  // of several kinds: no one's
+    const bool alone = row.names.empty();
+    row.on_light = alone ? kind.on_light : QColor();
+    row.on_dark = alone ? kind.on_dark : QColor();
+    row.shape = alone ? kind.shape : BarShape::full_height;
     row.names.push_back(std::move(kind.name));
 }
 
@@ -69,14 +87,9 @@ QString TimelineKinds::nameOf(int row) const {
                : timelineKindsText(QT_TRANSLATE_NOOP("TimelineKinds", "%1 other kinds")).arg(names.size());
 }
 
-QColor TimelineKinds::colourOf(int row, const OverlayColours& colours, const QPalette& palette) const {
-    const int number = at(row).colour;
-    if (number < 0) return quietText(palette);
-    const std::array<QColor, 6> cycle{colours.track, colours.non_vehicle, colours.cluster,
-                                      colours.stack, colours.zone,        colours.motion_vector};
-    const QColor& colour = cycle.at(static_cast<std::size_t>(number) % cycle.size());
-    // They are made for video; on a light ground they are darkened until they are seen.
-    return isDark(palette) ? colour.darker(115) : colour.darker(170);
+QColor TimelineKinds::colourOf(int row, const QPalette& palette) const {
+    const QColor& colour = isDark(palette) ? at(row).on_dark : at(row).on_light;
+    return colour.isValid() ? colour : quietText(palette);
 }
 
 std::vector<TimelineKinds::Bar> TimelineKinds::bars(int row, const TimelineAxis& axis) const {

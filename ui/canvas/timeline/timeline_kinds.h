@@ -2,12 +2,12 @@
 
 #include <QColor>
 #include <QPalette>
+#include <QRectF>
 #include <QString>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "canvas/overlay_colours.h"
 #include "canvas/timeline/timeline_axis.h"
 
 namespace eyrie::ui {
@@ -19,10 +19,17 @@ struct TimelineHappening {
     FrameIndex last = 0;
 };
 
+/// What of its row's height a bar takes, so that kinds of one colour are told apart.
+enum class BarShape { full_height, upper_half, lower_half, edges };
+/// The parts of a row's bar that are filled, one or two.
+std::vector<QRectF> filledParts(BarShape shape, const QRectF& bar);
+
 /// All that happened of one kind.
 struct TimelineKind {
     QString name;
-    int colour = 0;  ///< the same number, the same colour
+    QColor on_light;  ///< its colour on the ground of the light theme …
+    QColor on_dark;   ///< … and of the dark one
+    BarShape shape = BarShape::full_height;
     std::vector<TimelineHappening> happenings;
 };
 
@@ -50,8 +57,9 @@ class TimelineKinds {
     std::optional<int> rowAt(double y) const;
     /// "Stops", or "9 other kinds".
     QString nameOf(int row) const;
-    /// On the palette's ground.
-    QColor colourOf(int row, const OverlayColours& colours, const QPalette& palette) const;
+    /// On the palette's ground; of several kinds no one's.
+    QColor colourOf(int row, const QPalette& palette) const;
+    BarShape shapeOf(int row) const { return at(row).shape; }
     /// What is to be drawn of a row, ascending and apart: at most one bar a column of pixels.
     std::vector<Bar> bars(int row, const TimelineAxis& axis) const;
     /// How many of each kind of the row lie within `reach` px of x, in lines: "Stops: 3 here, 214 in all".
@@ -69,7 +77,9 @@ class TimelineKinds {
     struct Row {
         std::vector<QString> names;
         std::vector<int> counts;  ///< of each kind
-        int colour = 0;
+        QColor on_light;          ///< null for several kinds
+        QColor on_dark;
+        BarShape shape = BarShape::full_height;
         std::vector<Entry> entries;  ///< ascending first frames
     };
     static void add(Row& row, TimelineKind kind);

@@ -142,9 +142,11 @@ void TimelineView::paintKinds(QPainter& painter, const QRectF& row) const {
         const double top = row.top() + i * TimelineKinds::kRowStep;
         painter.fillRect(QRectF(row.left(), top, row.width(), TimelineKinds::kRowHeight),
                          palette().color(QPalette::Base));
-        const QColor colour = kinds_.colourOf(i, colours_, palette());
+        const QColor colour = kinds_.colourOf(i, palette());
         for (const auto& [from, to] : kinds_.bars(i, axis_))
-            painter.fillRect(QRectF(from, top, to - from, TimelineKinds::kRowHeight), colour);
+            for (const QRectF& part :
+                 filledParts(kinds_.shapeOf(i), QRectF(from, top, to - from, TimelineKinds::kRowHeight)))
+                painter.fillRect(part, colour);
     }
 }
 

@@ -262,6 +262,28 @@ void LabelTool::leave() {
     emit repaintNeeded();
 }
 
+bool LabelTool::takeBack() {
+    if (region_ && !region_->empty())
+        region_->pop_back();
+    else if (front_)
+        front_.reset();
+    else if (rear_)
+        rear_.reset();
+    else
+        return false;
+    if (cursor_image_ && drawing_) updateDraft(*cursor_image_);
+    emit repaintNeeded();
+    return true;
+}
+
+QString LabelTool::hint(const CanvasPlace&) const {
+    if (region_) return tr("Click the corners of the ignore region. Double-click: done · Esc: cancel");
+    if (!drawing_) return {};
+    if (front_) return tr("Click at the side of the object · Esc: cancel");
+    if (rear_) return tr("Click the front of the object (Shift: then its side) · Esc: cancel");
+    return tr("Click the rear of the object, or drag a box around it · Esc: cancel");
+}
+
 const QCursor* LabelTool::cursor() const {
     static const QCursor cross(Qt::CrossCursor);
     static const QCursor move_all(Qt::SizeAllCursor);

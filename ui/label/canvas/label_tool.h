@@ -75,6 +75,9 @@ class LabelTool : public QObject, public CanvasTool {
     bool doubleClick(const QMouseEvent& event, const CanvasPlace& place) override;
     void leave() override;
     const QCursor* cursor() const override;
+    QString hint(const CanvasPlace& place) const override;
+    bool takesPlaces() const override { return drawing_ || region_; }
+    bool takeBack() override;
 
  signals:
     /// Something looks different.

@@ -7,6 +7,7 @@
 #include "review/watch/watched_ground.h"
 #include "widgets/layout/scrolled.h"
 #include "workspace/dock_registry.h"
+#include "workspace/first_step.h"
 #include "workspace/session_reactions.h"
 
 namespace eyrie::ui {
@@ -35,10 +36,20 @@ CardDock::CardDock(const CardParts& parts)
     parts_.events.setEventShown([this](int id) { showEvent(id); });
     whenAny(&parts_.events.model(), this, &CardDock::refreshEvent, &EventsModel::dataChanged, &EventsModel::modelReset);
     whenAny(&parts_.ground, this, &CardDock::askForStory, &WatchedGround::changed);
-    followSession(parts_.session, this,
-                  {{SessionChange::selection, [this] { showSelection(); }},
-                   {SessionChange::run_data, [this] { refreshTrack(); }},
-                   {SessionChange::picture, [this] { card_->setFrame(parts_.session.shownFrame()); }}});
+    followSession(
+        parts_.session, this,
+        {{SessionChange::selection, [this] { showSelection(); }},
+         {SessionChange::run_data, [this] { refreshTrack(); }},
+         {{SessionChange::video, SessionChange::current_run, SessionChange::run_started, SessionChange::run_ended},
+          [this] { explainNothing(); }},
+         {SessionChange::picture, [this] { card_->setFrame(parts_.session.shownFrame()); }}});
+    explainNothing();
+}
+
+void CardDock::explainNothing() {
+    card_->explainNothing(afterFirstStep(
+        parts_.session,
+        tr("Select an event or a track: its vehicle in a loop, its speed and its path are shown here.")));
 }
 
 std::optional<CardSubject> CardDock::subjectOf(int id) const {

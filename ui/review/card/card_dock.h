@@ -30,6 +30,7 @@ class CardDock : public QObject {
     EventCard& card() { return *card_; }
 
  private:
+    void explainNothing();
     void showEvent(int id);
     void showSelection();
     /// A track alone, around a frame; again when what people made of it is known otherwise.

@@ -20,8 +20,7 @@ constexpr int kSpeedLines = 9;  ///< greatest height of the sketch of the speed,
 }  // namespace
 
 EventCard::EventCard(QWidget* parent) : QWidget(parent), loop_(kChipPeriod_ms, [this] { nextChip(); }) {
-    auto* empty = new EmptyState;
-    empty->setTexts(tr("Select an event or a track: its vehicle in a loop, its speed and its path are shown here."));
+    empty_ = new EmptyState;
     title_ = new QLabel;
     title_->setWordWrap(true);
     picture_ = new QLabel;
@@ -65,7 +64,7 @@ EventCard::EventCard(QWidget* parent) : QWidget(parent), loop_(kChipPeriod_ms, [
     grid->setRowStretch(6, 1);
     grid->setColumnStretch(1, 1);
     stack_ = new QStackedLayout(this);
-    stack_->addWidget(empty);
+    stack_->addWidget(empty_);
     stack_->addWidget(card);
     onFinished(
         this,
@@ -85,6 +84,10 @@ EventCard::EventCard(QWidget* parent) : QWidget(parent), loop_(kChipPeriod_ms, [
 }
 
 EventCard::~EventCard() = default;
+
+void EventCard::explainNothing(const QString& text) {
+    empty_->setTexts(text);
+}
 
 void EventCard::show(const std::optional<CardSubject>& subject) {
     if (subject == subject_) return;

@@ -13,6 +13,7 @@ class QStackedLayout;
 
 namespace eyrie::ui {
 
+class EmptyState;
 class StorySketch;
 
 /// What stands on a card.
@@ -48,6 +49,8 @@ class EventCard : public QWidget {
     /// Nothing: no card.
     void show(const std::optional<CardSubject>& subject);
     const std::optional<CardSubject>& subject() const { return subject_; }
+    /// What is said while there is no card.
+    void explainNothing(const QString& text);
     /// The story of the subject; of another one it is not shown.
     void setStory(const std::shared_ptr<const VehicleStory>& story, const SceneScale& scale);
     /// The frame that is shown in the canvas.
@@ -75,6 +78,7 @@ class EventCard : public QWidget {
     std::shared_ptr<const VehicleStory> story_;
     std::size_t chip_ = 0;
     QStackedLayout* stack_;
+    EmptyState* empty_;
     QLabel* title_;
     QLabel* picture_;
     QLabel* stacked_;

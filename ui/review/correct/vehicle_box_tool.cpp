@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "canvas/drawing/edged_painter.h"
-#include "canvas/drawing/tool_hint.h"
 #include "canvas/video_view.h"
 
 namespace eyrie::ui {
@@ -82,6 +81,13 @@ bool VehicleBoxTool::doubleClick(const QMouseEvent& event, const CanvasPlace& pl
     return press(event, place);
 }
 
+bool VehicleBoxTool::takeBack() {
+    if (!pressed_) return false;
+    pressed_.reset();
+    canvas_.update();
+    return true;
+}
+
 const QCursor* VehicleBoxTool::cursor() const {
     static const QCursor cross(Qt::CrossCursor);
     return drawing_ ? &cross : nullptr;
@@ -98,7 +104,10 @@ void VehicleBoxTool::paint(QPainter& painter, const CanvasPlace& place) const {
                 {place.transform.viewFromImage(corners[i]), place.transform.viewFromImage(corners[(i + 1) % 4])});
         drawEdgedLines(painter, lines, {kBoxDraft, kBoxEdge, 1.8});
     }
-    paintToolHint(painter, place.view, tr("Drag a tight box around the vehicle. Esc: cancel"));
+}
+
+QString VehicleBoxTool::hint(const CanvasPlace&) const {
+    return tr("Drag a tight box around the vehicle. Esc: cancel");
 }
 
 }  // namespace eyrie::ui

@@ -37,6 +37,9 @@ class VehicleBoxTool : public QObject, public CanvasTool {
     bool doubleClick(const QMouseEvent& event, const CanvasPlace& place) override;
     void leave() override {}
     const QCursor* cursor() const override;
+    QString hint(const CanvasPlace& place) const override;
+    bool dragsFrom(QPointF, const CanvasPlace&) const override { return true; }
+    bool takeBack() override;
 
  protected:
     bool eventFilter(QObject* watched, QEvent* event) override;

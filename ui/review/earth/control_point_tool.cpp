@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "canvas/drawing/edged_painter.h"
-#include "canvas/drawing/tool_hint.h"
 #include "canvas/video_view.h"
 
 namespace eyrie::ui {
@@ -67,7 +66,9 @@ bool ControlPointTool::eventFilter(QObject* watched, QEvent* event) {
     const bool plain = key->modifiers() == Qt::NoModifier;
     const bool undoes = key->matches(QKeySequence::Undo) || (plain && key->key() == Qt::Key_Z);
     const bool redoes = key->matches(QKeySequence::Redo);
-    const bool ends = plain && (key->key() == Qt::Key_Escape || key->key() == Qt::Key_Return);
+    // Where keys point, Enter sets a point as a click does.
+    const bool enter = key->key() == Qt::Key_Return && !canvas_.keyPointer();
+    const bool ends = plain && (key->key() == Qt::Key_Escape || enter);
     if (!undoes && !redoes && !ends) return QObject::eventFilter(watched, event);
     event->accept();  // whatever these keys do otherwise, they belong to the points now
     if (override) return true;
@@ -79,10 +80,10 @@ bool ControlPointTool::eventFilter(QObject* watched, QEvent* event) {
 
 // ---- mouse ----------------------------------------------------------------------------------------------------------
 
-ControlPointMark* ControlPointTool::markAt(QPointF view_point, const CanvasPlace& place) {
-    ControlPointMark* best = nullptr;
+const ControlPointMark* ControlPointTool::markAt(QPointF view_point, const CanvasPlace& place) const {
+    const ControlPointMark* best = nullptr;
     double nearest = kReach;
-    for (ControlPointMark& mark : marks_) {
+    for (const ControlPointMark& mark : marks_) {
         const double distance = QLineF(place.transform.viewFromImage(mark.px), view_point).length();
         if (!mark.own || distance > nearest) continue;
         nearest = distance;
@@ -156,9 +157,12 @@ void ControlPointTool::paint(QPainter& painter, const CanvasPlace& place) const 
         painter.setBrush(Qt::NoBrush);
     }
     if (draft_) cross(*draft_, Qt::white, Qt::SolidLine);
-    paintToolHint(painter, place.view,
-                  tr("Click a place that a map also shows, then enter its latitude and longitude. Drag a point to move "
-                     "it · Z: undo · Esc: done"));
+}
+
+QString ControlPointTool::hint(const CanvasPlace&) const {
+    return tr(
+        "Click a place that a map also shows, then enter its latitude and longitude. Drag a point to move it · Z: "
+        "undo · Esc: done");
 }
 
 }  // namespace eyrie::ui

@@ -57,6 +57,10 @@ class ControlPointTool : public QObject, public CanvasTool {
     bool doubleClick(const QMouseEvent& event, const CanvasPlace& place) override;
     void leave() override {}
     const QCursor* cursor() const override;
+    QString hint(const CanvasPlace& place) const override;
+    bool dragsFrom(QPointF view_point, const CanvasPlace& place) const override {
+        return markAt(view_point, place) != nullptr;
+    }
 
  signals:
     /// It began or ended.
@@ -66,7 +70,7 @@ class ControlPointTool : public QObject, public CanvasTool {
     bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
-    ControlPointMark* markAt(QPointF view_point, const CanvasPlace& place);
+    const ControlPointMark* markAt(QPointF view_point, const CanvasPlace& place) const;
 
     VideoView& canvas_;
     ControlPointCommands commands_;

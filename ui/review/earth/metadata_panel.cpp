@@ -118,7 +118,8 @@ void MetadataPanel::explainNothing() {
         QLatin1String("\n\n") + tr("You can set where it was taken by hand, with control points: see below.");
     if (!session_.media())
         emptyState()->setTexts(
-            tr("What a video says about its camera is listed here: time, place, angles and scale at the frame shown."));
+            tr("Open a video first. What it says about its camera is listed here: time, place, angles and scale at the "
+               "frame shown."));
     else if (!found)
         emptyState()->setTexts(tr("Looking for metadata: %1 %").arg(static_cast<int>(100 * earth_.readShare())));
     else if (!found->metadata && found->streams.empty())

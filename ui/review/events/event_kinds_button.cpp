@@ -4,7 +4,9 @@
 #include <QMenu>
 #include <QWidgetAction>
 
+#include "review/events/event_kind_marks.h"
 #include "review/events/event_text.h"
+#include "widgets/theme_colours.h"
 #include "widgets/wiring.h"
 
 namespace eyrie::ui {
@@ -24,6 +26,7 @@ void EventKindsButton::makeMenu() {
     for (int kind = 0; kind < kListedKinds; ++kind) {
         auto* box = new QCheckBox(list_);
         box->setContentsMargins(6, 0, 6, 0);
+        box->setIconSize(kindPlate(kind, false).deviceIndependentSize().toSize());
         boxes_.at(static_cast<std::size_t>(kind)) = box;
         auto* entry = new QWidgetAction(list_);
         entry->setDefaultWidget(box);
@@ -58,6 +61,7 @@ void EventKindsButton::refresh() {
     int hidden = 0;
     for (std::size_t i = 0; i < boxes_.size(); ++i) {
         boxes_[i]->setText(QStringLiteral("%1   %2").arg(listedKindText(static_cast<int>(i))).arg(counts_[i]));
+        boxes_[i]->setIcon(kindPlate(static_cast<int>(i), isDark(palette())));
         boxes_[i]->setChecked(shown_[i]);
         hidden += shown_[i] ? 0 : 1;
     }

@@ -8,6 +8,7 @@
 #include "review/bookmarks/bookmarks.h"
 #include "review/bookmarks/bookmarks_panel.h"
 #include "review/correct/track_correcting.h"
+#include "review/events/event_kind_marks.h"
 #include "review/events/event_review.h"
 #include "review/events/event_text.h"
 #include "review/events/event_thresholds.h"
@@ -23,6 +24,8 @@
 #include "widgets/theme_colours.h"
 #include "widgets/wiring.h"
 #include "workspace/dock_registry.h"
+#include "workspace/first_step.h"
+#include "workspace/session_reactions.h"
 #include "workspace/window_actions.h"
 
 namespace eyrie::ui {
@@ -65,6 +68,11 @@ EventsDock::EventsDock(const EventsParts& parts)
         panel_->showZones(true);
     });
     parts_.docks.add(DockId::events, tr("Events"), panel_);
+    followSession(
+        parts_.session, this,
+        {{{SessionChange::video, SessionChange::current_run, SessionChange::run_started, SessionChange::run_ended},
+          [this] { explainNothing(); }}});
+    explainNothing();
     parts_.docks.watch(DockId::events, panel_, [this](bool visible) {
         if (visible) review_->setWanted();
     });
@@ -204,9 +212,10 @@ void EventsDock::explainNothing() {
     QString text;
     switch (review_->state()) {
         case EventReview::State::nothing:
-            text =
+            text = afterFirstStep(
+                parts_.session,
                 tr("What happened to the vehicles of a run is listed here: stops, turns back, lost in mid-picture "
-                   "and more, what matters most first.");
+                   "and more, what matters most first."));
             break;
         case EventReview::State::at_work:
             if (review_->asOf())
@@ -261,8 +270,12 @@ void EventsDock::showMarks() {
             {entry.id, frames.first, frames.last});
     }
     for (int kind = 0; kind < kListedKinds; ++kind) {
-        kinds[static_cast<std::size_t>(kind)].name = listedKindText(kind);
-        kinds[static_cast<std::size_t>(kind)].colour = kind;
+        TimelineKind& row = kinds[static_cast<std::size_t>(kind)];
+        const EventKindMark& mark = markOf(kind);
+        row.name = listedKindText(kind);
+        row.on_light = groupColour(mark.group, false);
+        row.on_dark = groupColour(mark.group, true);
+        row.shape = mark.shape;
     }
     parts_.timeline.setKinds(std::move(kinds));
     if (active_)

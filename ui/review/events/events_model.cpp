@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "review/events/event_kind_marks.h"
 #include "review/events/event_text.h"
 #include "widgets/display_text.h"
 #include "widgets/tables/table_roles.h"
@@ -98,7 +99,8 @@ QVariant EventsModel::data(const QModelIndex& index, int role) const {
         case Qt::ToolTipRole:
             return tipOf(*entry);
         case Qt::DecorationRole:
-            return column == kind_column ? QVariant(judgementIcon(entry->judgement, dark_)) : QVariant();
+            if (column != kind_column) return {};
+            return judgedKindPlate(entry->judgement, listedKindAt(*found_, entry->position), dark_);
         case Qt::TextAlignmentRole:
             return column == kind_column || column == verdict_column || column == note_column
                        ? QVariant()

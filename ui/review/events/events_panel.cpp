@@ -302,13 +302,6 @@ void EventsPanel::showHeader() {
 
 // ---- going ----------------------------------------------------------------------------------------------------------
 
-int EventsPanel::shownRowOf(int id) const {
-    const auto* shown = table()->model();
-    for (int row = 0; id != 0 && row < shown->rowCount(); ++row)
-        if (shown->index(row, 0).data(id_role).toInt() == id) return row;
-    return -1;
-}
-
 const EventEntry* EventsPanel::shownAt(int row) const {
     const auto* shown = static_cast<const TableSortProxy*>(table()->model());
     return events_->recordAt(shown->mapToSource(shown->index(row, 0)).row());

@@ -100,7 +100,6 @@ class EventsPanel : public TablePanel {
     QString countedText() const;
     QString leftText() const;
     /// Row in the order shown, −1 for none.
-    int shownRowOf(int id) const;
     const EventEntry* shownAt(int row) const;
 
     EventsModel* events_;

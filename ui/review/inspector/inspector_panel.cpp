@@ -13,6 +13,7 @@
 #include "review/tracks/tracks_model.h"
 #include "widgets/display_text.h"
 #include "widgets/wiring.h"
+#include "workspace/first_step.h"
 
 namespace eyrie::ui {
 
@@ -129,6 +130,8 @@ InspectorPanel::InspectorPanel(ProjectSession& session, QWidget* parent) : QWidg
     whenChanged(session_, this,
                 {{SessionChange::picture, [this] { showFrame(session_.viewFrame()); }},
                  {SessionChange::video, [this] { showFrame({}); }},
+                 {{SessionChange::current_run, SessionChange::run_started, SessionChange::run_ended},
+                  [this] { showFrame(session_.viewFrame()); }},
                  {SessionChange::selection, [this] { showSelection(); }}});
     connect(&session_, &ProjectSession::trackStatesRead, this,
             [this](TrackId track, const std::vector<TrackFrame>& states) {
@@ -176,7 +179,10 @@ void InspectorPanel::showFacts() {
     const ViewFrame& frame = session_.viewFrame();
     if (!frame.result) {
         title_->setText(tr("Nothing selected"));
-        setRows({{QString(), session_.video() ? tr("Click a track in the picture or in the list.") : QString()}});
+        setRows({{QString(),
+                  afterFirstStep(
+                      session_,
+                      tr("Click a track in the video or in the list: its life, speed and size are shown here."))}});
         return;
     }
     title_->setText(tr("Frame %1").arg(frame.index));

@@ -15,6 +15,7 @@
 #include "review/watch/watched_ground.h"
 #include "widgets/display_text.h"
 #include "widgets/empty_state.h"
+#include "workspace/first_step.h"
 #include "workspace/session_reactions.h"
 
 namespace eyrie::ui {
@@ -75,7 +76,9 @@ MosaicPanel::MosaicPanel(const MosaicParts& parts, QWidget* parent)
     followSession(parts_.session, this,
                   {{SessionChange::picture, [this] { showFrame(); }},
                    {SessionChange::selection, [this] { view_->setSelectedTrack(parts_.session.selectedTrack()); }},
-                   {SessionChange::run_data, [this] { explainNothing(); }}});
+                   {{SessionChange::video, SessionChange::current_run, SessionChange::run_data,
+                     SessionChange::run_started, SessionChange::run_ended},
+                    [this] { explainNothing(); }}});
     view_->setColours(parts_.overlays.style().colours);
     explainNothing();
     showMosaic();
@@ -116,9 +119,10 @@ void MosaicPanel::explainNothing() {
         empty_->setTexts(failure_);
         return;
     }
-    empty_->setTexts(
+    empty_->setTexts(afterFirstStep(
+        parts_.session,
         tr("The ground that a run saw is laid out here once it has finished, with the paths of all tracks. Click a "
-           "place to see when it was in the picture and which tracks crossed it."));
+           "place to see when it was in the picture and which tracks crossed it.")));
 }
 
 QString MosaicPanel::headerText() const {

@@ -18,9 +18,10 @@ namespace {
 
 const QString kLikeTopic = QStringLiteral("tracks like one");
 
-/// Looks at all tracks; `tell` gets the per cent done when they are others.
+/// Looks at all tracks that were not looked at; `tell` gets the per cent done when they are others.
 template <class Tell>
-LooksRead lookAt(const RunGround& ground, const Media& media, const std::stop_token& stop, const Tell& tell) {
+LooksRead lookAt(LookReading& reading, const RunGround& ground, const Media& media, const std::stop_token& stop,
+                 const Tell& tell) {
     const auto open = [&]() -> ReadPicture {
         const std::shared_ptr<FrameSource> source = media.open({}, stop);
         return [source](FrameIndex frame) { return source->read(frame, true); };
@@ -31,12 +32,13 @@ LooksRead lookAt(const RunGround& ground, const Media& media, const std::stop_to
         const int done = static_cast<int>(100 * share);
         if (std::exchange(percent, done) < done) tell(done);
     };
-    return readLooks(ground.run->tracks, open, tell_percent, stop);
+    return reading.goOn(ground.run->tracks, open, tell_percent, stop);
 }
 
 }  // namespace
 
-LikeTracks::LikeTracks(const LikeParts& parts, QObject* parent) : QObject(parent), parts_(parts) {
+LikeTracks::LikeTracks(const LikeParts& parts, QObject* parent)
+    : QObject(parent), parts_(parts), reading_(std::make_shared<LookReading>()) {
     bindCommands(this, {{parts_.actions.like_track, [this] {
                              parts_.docks.raise(DockId::tracks);
                              parts_.panel.listLike(parts_.session.selectedTrack());
@@ -62,6 +64,7 @@ void LikeTracks::setGround(const std::shared_ptr<const RunGround>& ground) {
     if (ground_ == ground) return;
     ground_ = ground;
     looks_.reset();
+    reading_ = std::make_shared<LookReading>();
     search();
 }
 
@@ -77,13 +80,13 @@ void LikeTracks::search() {
     if (!wanted_ || !ground_) return;
     const auto& limit = parts_.panel.chips().filter().like;
     const LikenessChoice counts = limit ? limit->counts : LikenessChoice();
-    const auto work = [this, ground = ground_, track = *wanted_, counts, media = parts_.session.media(),
-                       known = looks_](const BackgroundTask& task) {
+    const auto work = [this, ground = ground_, track = *wanted_, counts, media = parts_.session.media(), known = looks_,
+                       reading = reading_](const BackgroundTask& task) {
         std::vector<TrackLikeness> found = tracksLike(*ground->run, ground->stretches, track);
         if (known) compareLooks(found, *known, track);
         task.tell([this, track, found, counts] { take(track, found, counts); });
         if (!counts.looks || known || !media) return;
-        const LooksRead seen = lookAt(*ground, *media, task.stop(), [&](int percent) {
+        const LooksRead seen = lookAt(*reading, *ground, *media, task.stop(), [&](int percent) {
             task.tell(
                 [this, percent] { parts_.panel.chips().setLikeWaiting(tr("looking at pictures, %1 %").arg(percent)); });
         });
@@ -107,11 +110,11 @@ void LikeTracks::take(TrackId chosen, const std::vector<TrackLikeness>& found, c
 }
 
 void LikeTracks::takeLooks(std::shared_ptr<const LooksByTrack> looks, const QString& missing) {
-    // What could not be read may be there the next time.
     if (missing.isEmpty()) {
         looks_ = std::move(looks);
         return;
     }
+    reading_ = std::make_shared<LookReading>();  // what could not be read may be there the next time
     parts_.messages.showTopic(kLikeTopic, MessageKind::warning,
                               tr("What vehicles look like does not count, or only in part: %1.").arg(missing));
 }

@@ -8,6 +8,10 @@
 #include "ground/track_likeness.h"
 #include "session/background/background_query.h"
 
+namespace eyrie {
+class LookReading;
+}
+
 namespace eyrie::ui {
 
 class DockRegistry;
@@ -27,7 +31,8 @@ struct LikeParts {
 };
 
 /// Tracks like the one selected: the command, and what the list asks for, worked out in the background. Where looks
-/// count, the list is there without them first; the pictures are read once for a run.
+/// count, the list is there without them first; the pictures are read once for a run, also where what counts is changed
+/// meanwhile.
 class LikeTracks : public QObject {
     Q_OBJECT
 
@@ -51,6 +56,7 @@ class LikeTracks : public QObject {
     LikeParts parts_;
     std::shared_ptr<const RunGround> ground_;
     std::shared_ptr<const LooksByTrack> looks_;  ///< of the tracks of `ground_`; null: not looked at
+    std::shared_ptr<LookReading> reading_;       ///< what was looked at so far; `query_` alone goes on with it
     std::optional<TrackId> wanted_;
     std::optional<int> shown_run_;
     BackgroundQuery query_;  ///< last: stops before the rest goes

@@ -150,6 +150,13 @@ void MeasureTool::leave() {
     canvas_.update();
 }
 
+bool MeasureTool::takeBack() {
+    if (!from_) return false;
+    (to_ ? to_ : from_).reset();
+    canvas_.update();
+    return true;
+}
+
 const QCursor* MeasureTool::cursor() const {
     static const QCursor cross(Qt::CrossCursor);
     return measuring_ ? &cross : nullptr;
@@ -157,26 +164,31 @@ const QCursor* MeasureTool::cursor() const {
 
 // ---- painting -------------------------------------------------------------------------------------------------------
 
+std::optional<QPointF> MeasureTool::inView(const std::optional<FramePoint>& point, const CanvasPlace& place) const {
+    const auto here = point ? shownHere(*point) : std::nullopt;
+    if (!here) return std::nullopt;
+    return place.transform.viewFromImage({here->at.x, here->at.y});
+}
+
+QString MeasureTool::hint(const CanvasPlace& place) const {
+    // Beside a line that is seen its length stands there.
+    if (from_ && inView(from_, place) && inView(farEnd(), place)) return tr("Click two places to measure · Esc: done");
+    return text();
+}
+
 void MeasureTool::paint(QPainter& painter, const CanvasPlace& place) const {
     if (!measuring_) return;
-    const auto in_view = [&](const std::optional<FramePoint>& point) -> std::optional<QPointF> {
-        const auto here = point ? shownHere(*point) : std::nullopt;
-        if (!here) return std::nullopt;
-        return place.transform.viewFromImage({here->at.x, here->at.y});
-    };
-    const auto from = in_view(from_);
-    const auto to = from_ ? in_view(farEnd()) : std::nullopt;
+    const auto from = inView(from_, place);
+    const auto to = from_ ? inView(farEnd(), place) : std::nullopt;
     if (from && to) drawEdgedLines(painter, {QLineF(*from, *to)}, {kMeasure, kMeasureEdge, 1.8});
     QVector<QPointF> ends;
     if (from) ends << *from;
     if (to && to_) ends << *to;
     drawEdgedDots(painter, ends, 7, kMeasure, kMeasureEdge);
+    if (!from || !to) return;
     const QString words = text();
     QRectF plate = QRectF(painter.fontMetrics().boundingRect(words)).adjusted(-8, -4, 8, 4);
-    if (from && to)
-        plate.moveCenter((*from + *to) / 2 - QPointF(0, plate.height()));
-    else
-        plate.moveCenter({place.view.center().x(), place.view.bottom() - plate.height()});
+    plate.moveCenter((*from + *to) / 2 - QPointF(0, plate.height()));
     const QRectF room = place.view.adjusted(4, 4, -4, -4);
     plate.moveLeft(std::max(room.left(), std::min(plate.left(), room.right() - plate.width())));
     plate.moveTop(std::max(room.top(), std::min(plate.top(), room.bottom() - plate.height())));

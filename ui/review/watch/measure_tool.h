@@ -38,6 +38,8 @@ class MeasureTool : public QObject, public CanvasTool {
     bool doubleClick(const QMouseEvent& event, const CanvasPlace& place) override;
     void leave() override;
     const QCursor* cursor() const override;
+    QString hint(const CanvasPlace& place) const override;
+    bool takeBack() override;
 
  signals:
     /// It began or ended.
@@ -48,6 +50,7 @@ class MeasureTool : public QObject, public CanvasTool {
 
  private:
     std::optional<FramePoint> shownHere(const FramePoint& point) const;
+    std::optional<QPointF> inView(const std::optional<FramePoint>& point, const CanvasPlace& place) const;
     std::optional<FramePoint> farEnd() const;
     std::optional<GroundMeasure> between(const FramePoint& from, const FramePoint& to) const;
 

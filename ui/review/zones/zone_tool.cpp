@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "canvas/drawing/edged_painter.h"
-#include "canvas/drawing/tool_hint.h"
 #include "canvas/video_view.h"
 
 namespace eyrie::ui {
@@ -62,10 +61,11 @@ void ZoneTool::finish() {
     finished_(zone.shape, zone.points);
 }
 
-void ZoneTool::takeBack() {
-    if (points_.empty()) return;
+bool ZoneTool::takeBack() {
+    if (points_.empty()) return false;
     points_.pop_back();
     canvas_.update();
+    return true;
 }
 
 bool ZoneTool::eventFilter(QObject* watched, QEvent* event) {
@@ -75,12 +75,13 @@ bool ZoneTool::eventFilter(QObject* watched, QEvent* event) {
     const auto* key = static_cast<QKeyEvent*>(event);
     const int code = key->key();
     const bool ends = code == Qt::Key_Return || code == Qt::Key_Enter;
-    if (key->modifiers() & ~Qt::KeypadModifier || !(ends || code == Qt::Key_Backspace || code == Qt::Key_Escape))
+    // Where keys point, Enter sets a point as a click does, and a second one there ends it as a double click does.
+    const bool points = ends && canvas_.keyPointer().has_value();
+    if (key->modifiers() & ~Qt::KeypadModifier || points || !(ends || code == Qt::Key_Escape))
         return QObject::eventFilter(watched, event);
     event->accept();  // whatever these keys do otherwise, they belong to the drawing now
     if (override) return true;
     if (ends) finish();
-    if (code == Qt::Key_Backspace) takeBack();
     if (code == Qt::Key_Escape) cancel();
     return true;
 }
@@ -152,10 +153,10 @@ void ZoneTool::paint(QPainter& painter, const CanvasPlace& place) const {
     QVector<QPointF> dots;
     for (const QPointF& corner : set) dots << corner;
     drawEdgedDots(painter, dots, 7, kZoneDraft, kZoneEdge);
-    paintHint(painter, place.view);
 }
 
-void ZoneTool::paintHint(QPainter& painter, const QRectF& view) const {
+QString ZoneTool::hint(const CanvasPlace&) const {
+    if (!shape_) return {};
     const auto begin = [this] {
         switch (*shape_) {
             case ZoneShape::area:
@@ -167,8 +168,7 @@ void ZoneTool::paintHint(QPainter& painter, const QRectF& view) const {
         }
         return tr("Click the corners.");
     };
-    paintToolHint(painter, view,
-                  tr("%1 Double-click or Enter: done · Backspace: remove the last one · Esc: cancel").arg(begin()));
+    return tr("%1 Double-click or Enter: done · Backspace: remove the last one · Esc: cancel").arg(begin());
 }
 
 }  // namespace eyrie::ui

@@ -46,6 +46,8 @@ class ZoneTool : public QObject, public CanvasTool {
     bool doubleClick(const QMouseEvent& event, const CanvasPlace& place) override;
     void leave() override;
     const QCursor* cursor() const override;
+    QString hint(const CanvasPlace& place) const override;
+    bool takeBack() override;
 
  signals:
     /// Drawing began or ended.
@@ -55,9 +57,6 @@ class ZoneTool : public QObject, public CanvasTool {
     bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
-    void takeBack();
-    void paintHint(QPainter& painter, const QRectF& view) const;
-
     VideoView& canvas_;
     std::function<void(ZoneShape, const std::vector<cv::Point2d>&)> finished_ = [](ZoneShape, const auto&) {};
     std::function<void(const QString&)> refused_ = [](const QString&) {};

@@ -11,6 +11,8 @@ namespace eyrie::ui {
 namespace {
 
 constexpr std::size_t kResultBudget = std::size_t{96} << 20U;
+constexpr int kBlockFrames = 256;       ///< whose homographies are read at once
+constexpr std::size_t kMostBlocks = 8;  ///< kept
 
 std::size_t bytesOf(const FrameResult& result) {
     std::size_t bytes = sizeof(FrameResult) + result.motion.motion_vectors.size() * sizeof(MotionVector) +
@@ -60,12 +62,19 @@ std::shared_ptr<const FrameResult> StoredFrames::result(FrameIndex frame) {
 }
 
 const Homography* StoredFrames::homography(FrameIndex frame) {
-    if (homographies_.count(frame) == 0) {
-        const FrameIndex from = homographies_.empty() ? 0 : homographies_.rbegin()->first + 1;
-        for (Homography& h : store_.homographies(run_id_, from)) homographies_[h.to_frame] = h;
+    // Of a run of hours only what lies about the frames looked at is read, and kept.
+    const int number = frame / kBlockFrames;
+    if (!homographies_.contains(number) && homographies_.size() >= kMostBlocks) homographies_.clear();
+    HomographyBlock& block = homographies_[number];
+    if (!block.known.contains(frame)) {
+        const FrameIndex first = std::max(block.next, number * kBlockFrames);
+        for (Homography& h : store_.homographies(run_id_, first, (number + 1) * kBlockFrames - 1)) {
+            block.next = h.to_frame + 1;
+            block.known[h.to_frame] = h;
+        }
     }
-    const auto found = homographies_.find(frame);
-    return found == homographies_.end() ? nullptr : &found->second;
+    const auto found = block.known.find(frame);
+    return found == block.known.end() ? nullptr : &found->second;
 }
 
 std::vector<Trail> StoredFrames::trails(FrameIndex frame) {

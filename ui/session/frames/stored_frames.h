@@ -27,7 +27,7 @@ class StoredFrames {
  private:
     std::shared_ptr<const FrameResult> result(FrameIndex frame);
     std::vector<Trail> trails(FrameIndex frame);
-    const Homography* homography(FrameIndex frame);
+    const Homography* homography(FrameIndex frame);  ///< valid until the next call
 
     ProjectFile project_;
     RunStore store_;
@@ -36,7 +36,12 @@ class StoredFrames {
     std::shared_ptr<const CorrectedTracks> corrected_;  ///< never null
     SceneScale scale_;
     LruCache<FrameIndex, std::shared_ptr<const FrameResult>> results_;
-    std::map<FrameIndex, Homography> homographies_;  ///< current from previous, by current frame
+    /// Of some consecutive frames: current from previous, by current frame.
+    struct HomographyBlock {
+        std::map<FrameIndex, Homography> known;
+        FrameIndex next = 0;  ///< the first that was not read; the run may be at work
+    };
+    std::map<int, HomographyBlock> homographies_;  ///< by number; a few
 };
 
 }  // namespace eyrie::ui

@@ -171,17 +171,28 @@ void TablePanel::selectId(int id) {
     const QScopedValueRollback<bool> quiet(telling_, false);
     kept_id_ = id;
     if (id != 0 && id == told_id_) return;
-    for (int row = 0; id != 0 && row < proxy_->rowCount(); ++row) {
-        if (idOf(proxy_->index(row, 0)) != id) continue;
-        const QModelIndex found = proxy_->index(row, shownColumns().value(0));
-        if (table_->currentIndex().row() != row || currentId() != id) {
-            table_->selectionModel()->setCurrentIndex(found,
-                                                      QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
-        }
-        table_->scrollTo(found);
+    const int row = shownRowOf(id);
+    if (row < 0) {
+        table_->selectionModel()->clear();
         return;
     }
-    table_->selectionModel()->clear();
+    const QModelIndex found = proxy_->index(row, shownColumns().value(0));
+    if (table_->currentIndex().row() != row || currentId() != id)
+        table_->selectionModel()->setCurrentIndex(found,
+                                                  QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
+    table_->scrollTo(found);
+}
+
+int TablePanel::shownRowOf(int id) const {
+    if (id == 0) return -1;
+    const auto id_in = [this](int row) { return model_->index(row, 0).data(id_role).toInt(); };
+    const auto known = rows_.constFind(id);
+    if (known == rows_.constEnd() || *known >= model_->rowCount() || id_in(*known) != id) {
+        rows_.clear();
+        for (int row = model_->rowCount() - 1; row >= 0; --row) rows_.insert(id_in(row), row);
+        if (!rows_.contains(id)) return -1;
+    }
+    return proxy_->mapFromSource(model_->index(rows_.value(id), 0)).row();
 }
 
 void TablePanel::keepPlace(const std::function<void()>& change) {

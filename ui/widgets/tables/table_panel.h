@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QHash>
 #include <QList>
 #include <QWidget>
 #include <functional>
@@ -68,6 +69,8 @@ class TablePanel : public QWidget {
     /// Whether showHidden() helps.
     virtual bool canShowHidden() const { return false; }
     bool eventFilter(QObject* watched, QEvent* event) override;
+    /// The row as it is shown now; −1 for none, or one that is filtered out. Quick in lists of thousands.
+    int shownRowOf(int id) const;
 
  private:
     void buildTable(std::optional<int> sort_column);
@@ -88,6 +91,7 @@ class TablePanel : public QWidget {
     QList<int> shownColumns() const;
 
     QAbstractItemModel* model_;
+    mutable QHash<int, int> rows_;  ///< of the model by id, as they were when one was looked for last
     QString settings_key_;
     TableSortProxy* proxy_;
     QLineEdit* filter_;

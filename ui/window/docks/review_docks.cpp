@@ -16,6 +16,7 @@
 #include "widgets/wiring.h"
 #include "window/run_guard.h"
 #include "workspace/dock_registry.h"
+#include "workspace/first_step.h"
 #include "workspace/window_actions.h"
 
 namespace eyrie::ui {
@@ -53,6 +54,8 @@ ReviewDocks::ReviewDocks(const ReviewParts& parts) : QObject(&parts.docks), part
                      [this] { showRuns(); }},
                     {SessionChange::run_data, [this] { adoptAwaitedParameters(); }},
                     {{SessionChange::current_run, SessionChange::run_data}, [this] { showTracks(); }},
+                    {{SessionChange::video, SessionChange::run_started, SessionChange::run_ended},
+                     [this] { explainNoTracks(); }},
                     {SessionChange::picture, [this] { tracks_->setShownFrame(session_.shownFrame()); }},
                     {SessionChange::selection, [this] { tracks_->selectId(session_.selectedTrack().value_or(0)); }},
                 });
@@ -120,13 +123,14 @@ void ReviewDocks::wireTracks() {
     const WindowActions& actions = parts_.actions;
     tracks_->setMenuActions({actions.follow_object, actions.like_track, actions.join_tracks, actions.split_track,
                              actions.reject_tracks, actions.remove_correction, actions.clip_track});
+    explainNoTracks();
 }
 
 void ReviewDocks::explainNoTracks() {
     const auto& data = session_.runData();
-    QString text =
-        tr("The tracks of a run are listed here: one row for each moving vehicle, with its life, speed and "
-           "size.");
+    QString text = afterFirstStep(
+        session_,
+        tr("The tracks of a run are listed here: one row for each moving vehicle, with its life, speed and size."));
     if (data && !data->record.live && !(session_.ownRun() != nullptr && session_.ownRun()->id == data->record.id))
         text = whyNoTracks(data->facts);
     else if (data)

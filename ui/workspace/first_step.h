@@ -1,0 +1,15 @@
+#pragma once
+
+#include <QString>
+
+namespace eyrie::ui {
+
+class ProjectSession;
+
+/// What has to be done before a dock can show anything of a run, in one sentence, the same in all of them: "Open a
+/// video first."; empty once a run is shown, or on its way.
+QString firstStep(const ProjectSession& session);
+/// The sentence and, behind it, what the dock shows.
+QString afterFirstStep(const ProjectSession& session, const QString& about);
+
+}  // namespace eyrie::ui
