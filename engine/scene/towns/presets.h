@@ -12,6 +12,7 @@ SceneDescription presetSeq2(std::uint32_t seed);
 SceneDescription presetEgTest01(std::uint32_t seed);
 SceneDescription presetDemo(std::uint32_t seed);
 SceneDescription presetStops(std::uint32_t seed);
+SceneDescription presetPatrol(std::uint32_t seed);
 SceneDescription presetRoadFlight(std::uint32_t seed);
 SceneDescription presetRoadFlightHaze(std::uint32_t seed);
 SceneDescription presetRoadFlightDusk(std::uint32_t seed);

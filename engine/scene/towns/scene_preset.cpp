@@ -14,11 +14,12 @@ struct Preset {
     std::uint32_t seed;
 };
 
-constexpr std::array<Preset, 14> kPresets{{{"seq1", presetSeq1, 1},
+constexpr std::array<Preset, 15> kPresets{{{"seq1", presetSeq1, 1},
                                            {"seq2", presetSeq2, 1},
                                            {"egtest01", presetEgTest01, 1},
                                            {"demo", presetDemo, 1},
                                            {"stops", presetStops, 1},
+                                           {"patrol", presetPatrol, 1},
                                            {"road_flight", presetRoadFlight, 1},
                                            {"road_flight_haze", presetRoadFlightHaze, 1},
                                            {"road_flight_dusk", presetRoadFlightDusk, 1},

@@ -8,7 +8,7 @@
 
 namespace eyrie {
 
-/// Names of the built-in scenes: seq1, seq2, egtest01 (after Teutsch table 7.1), demo and stops.
+/// Names of the built-in scenes, in the order in which people read them.
 const std::vector<std::string>& scenePresetNames();
 
 /// A built-in scene. `seed` 0 stands for the preset's own. Throws Error(parameter) for an unknown name, listing the

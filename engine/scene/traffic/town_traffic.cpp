@@ -67,6 +67,13 @@ int TownTraffic::straight(int street, bool forward) {
     return static_cast<int>(routes_.size()) - 1;
 }
 
+int TownTraffic::against(int street, bool forward, int lane) {
+    Route route;
+    route.path = lanePath(street, forward, lane).reversed();
+    routes_.push_back(std::move(route));
+    return static_cast<int>(routes_.size()) - 1;
+}
+
 int TownTraffic::turn(int street_from, bool forward_from, int street_to, bool forward_to) {
     const Street& a = town_.streets()[static_cast<std::size_t>(street_from)];
     const Street& b = town_.streets()[static_cast<std::size_t>(street_to)];
@@ -135,6 +142,16 @@ void TownTraffic::fill(int route, int lane, const LaneLoad& load) {
             driver.headway = random_.uniform(0.3, 0.8);
         }
         s += random_.uniform(load.pause.first, load.pause.second);
+    }
+}
+
+void TownTraffic::stream(int route, int lane, std::pair<double, double> speed, std::pair<double, double> every,
+                         double duration, const std::vector<std::pair<double, double>>& free) {
+    for (double t = random_.uniform(0, every.second); t < duration; t += random_.uniform(every.first, every.second)) {
+        const bool kept_free =
+            std::any_of(free.begin(), free.end(), [&](const auto& span) { return t >= span.first && t < span.second; });
+        if (kept_free) continue;
+        send(route, lane, 8, randomVehicleKind(random_), random_.uniform(speed.first, speed.second), t);
     }
 }
 

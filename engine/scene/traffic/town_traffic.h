@@ -27,11 +27,17 @@ class TownTraffic {
 
     /// Along a street with all its lanes; returns the route's number.
     int straight(int street, bool forward);
+    /// Along one lane of a street against those who use it: `forward` and `lane` name them; returns the route's number.
+    int against(int street, bool forward, int lane);
     /// From one street into another at the crossing of the two. Right turns use the outer lanes, left turns the inner.
     int turn(int street_from, bool forward_from, int street_to, bool forward_to);
     /// Red light where a route reaches the crossing of `street` with `other`.
     void redLight(int route, int street, int other, bool forward, std::vector<std::pair<double, double>> red);
     void fill(int route, int lane, const LaneLoad& load);
+    /// Vehicles that enter at the route's beginning, one after another for `duration` seconds, `every` apart, but in
+    /// none of the stretches of time `free`; all in seconds on the scene's clock.
+    void stream(int route, int lane, std::pair<double, double> speed, std::pair<double, double> every, double duration,
+                const std::vector<std::pair<double, double>>& free = {});
     /// One vehicle.
     void send(int route, int lane, double start, ObjectKind kind, double speed, double enter_time = -1e9);
     /// A person or bicycle on a way of its own.
