@@ -203,22 +203,22 @@ class ZonesWindowTest : public QObject {
     void aLineIsDrawnWithoutAMouse() {
         const auto window = windowWithRun();
         QVERIFY(window);
-        const auto key = [&](Qt::Key key, Qt::KeyboardModifiers modifiers = {}) {
+        const auto press = [&](Qt::Key key, Qt::KeyboardModifiers modifiers = {}) {
             QTest::keyClick(&window->canvas(), key, modifiers);
         };
         window->actions().draw_line->trigger();
-        key(Qt::Key_Left);
+        press(Qt::Key_Left);
         QVERIFY(window->canvas().keyPointer());
         QCOMPARE(window->session().currentFrame(), kDrawnIn);  // the arrows step no frames meanwhile
-        key(Qt::Key_Return);
-        key(Qt::Key_Down, Qt::ShiftModifier);
-        key(Qt::Key_Return);
-        key(Qt::Key_Backspace);
+        press(Qt::Key_Return);
+        press(Qt::Key_Down, Qt::ShiftModifier);
+        press(Qt::Key_Return);
+        press(Qt::Key_Backspace);
         QCOMPARE(window->events().zones().tool().points().size(), std::size_t(1));
         for (int i = 0; i < 5; ++i) key(Qt::Key_Right, Qt::ShiftModifier);
-        key(Qt::Key_Return);
+        press(Qt::Key_Return);
         QVERIFY(window->events().zones().tool().drawing());
-        key(Qt::Key_Return);  // again in the same place: done
+        press(Qt::Key_Return);  // again in the same place: done
         QVERIFY(!window->events().zones().tool().drawing());
         QCOMPARE(zones(*window).size(), std::size_t(1));
         QCOMPARE(zones(*window).begin()->second.zone.points.size(), std::size_t(2));
