@@ -3,13 +3,12 @@
 
 #include <fstream>
 
+#include "cli/loaded_program.h"
 #include "io/atomic_file.h"
 #include "io/video/frame_source.h"
 #include "io/video/video_writer.h"
 #include "store/project/project_file.h"
 #include "store/runs/result_writer.h"
-#include "support/places.h"
-#include "support/process.h"
 #include "support/temporary_folder.h"
 
 namespace eyrie::clip_command_test {
@@ -67,8 +66,7 @@ class HandedOver : public testing::Test {
         for (std::string& word : arguments) {
             if (word.starts_with('@')) word = at(word.substr(1));
         }
-        arguments.insert(arguments.begin(), test::programPath("eyrie-cli"));
-        return test::runProcess(arguments);
+        return test::runLoaded(arguments);
     }
     /// How many frames a clip has, and how bright its first one is far from the vehicle.
     std::pair<int, int> framesAndBrightness(const std::string& name) const {

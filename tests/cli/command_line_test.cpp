@@ -5,6 +5,7 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
+#include "cli/loaded_program.h"
 #include "store/project/project_file.h"
 #include "store/runs/run_store.h"
 #include "support/moving_scene.h"
@@ -20,9 +21,8 @@ using testing::Not;
 
 const std::string program = test::programPath("eyrie-cli");
 
-test::ProcessResult cli(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), program);
-    return test::runProcess(arguments);
+test::ProcessResult cli(const std::vector<std::string>& arguments) {
+    return test::runLoaded(arguments);
 }
 
 class CommandLine : public testing::Test {
@@ -44,8 +44,9 @@ class CommandLine : public testing::Test {
 }  // namespace
 
 TEST_F(CommandLine, runWritesProjectTracksDetectionsTimingAndVideo) {
-    const auto result = cli({"run", clip(), "--gsd", "0.2", "--project", at("p.eyrie"), "--tracks", at("t.csv"),
-                             "--detections", at("d.csv"), "--timing", at("t.json"), "--annotated", at("a.mp4")});
+    const auto result =
+        test::runProcess({program, "run", clip(), "--gsd", "0.2", "--project", at("p.eyrie"), "--tracks", at("t.csv"),
+                          "--detections", at("d.csv"), "--timing", at("t.json"), "--annotated", at("a.mp4")});
     ASSERT_EQ(result.exit_code, 0) << result.errors;
     EXPECT_THAT(result.output, HasSubstr("30 of 30 frames"));
     EXPECT_THAT(result.output, HasSubstr("km/h"));

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <opencv2/imgproc.hpp>
 
+#include "cli/loaded_program.h"
 #include "io/video/video_writer.h"
 #include "support/live_sender.h"
 #include "support/live_server.h"
@@ -40,9 +41,7 @@ class HandOver : public testing::Test {
         arguments.insert(arguments.begin(), test::programPath("eyrie-cli"));
         return arguments;
     }
-    static test::ProcessResult call(std::vector<std::string> arguments) {
-        return test::runProcess(command(std::move(arguments)));
-    }
+    static test::ProcessResult call(const std::vector<std::string>& arguments) { return test::runLoaded(arguments); }
     std::string address() const { return "udp://127.0.0.1:" + std::to_string(port_); }
     test::TemporaryFolder folder_;
     int port_ = test::freePort();

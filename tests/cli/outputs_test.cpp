@@ -10,6 +10,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <thread>
 
+#include "cli/loaded_program.h"
 #include "io/atomic_file.h"
 #include "store/project/project_file.h"
 #include "store/runs/result_writer.h"
@@ -61,8 +62,7 @@ class Outputs : public testing::Test {
         for (std::string& word : arguments) {
             if (word.starts_with('@')) word = at(word.substr(1));
         }
-        arguments.insert(arguments.begin(), test::programPath("eyrie-cli"));
-        return test::runProcess(arguments);
+        return test::runLoaded(arguments);
     }
     /// The same through a shell, where `redirection` says what becomes of the streams.
     test::ProcessResult shell(const std::string& arguments, const std::string& redirection) const {

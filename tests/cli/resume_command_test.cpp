@@ -7,6 +7,7 @@
 #include <random>
 #include <sstream>
 
+#include "cli/loaded_program.h"
 #include "io/video/frame_source.h"
 #include "store/project/project_file.h"
 #include "store/runs/run_store.h"
@@ -51,9 +52,7 @@ class RunAgain : public testing::Test {
         arguments.insert(arguments.begin(), test::programPath("eyrie-cli"));
         return arguments;
     }
-    static test::ProcessResult cli(const std::vector<std::string>& arguments) {
-        return test::runProcess(program(arguments));
-    }
+    static test::ProcessResult cli(const std::vector<std::string>& arguments) { return test::runLoaded(arguments); }
     std::vector<std::string> command(const std::string& project, const std::vector<std::string>& more = {}) const {
         std::vector<std::string> arguments{"run", clip(), "--gsd", "0.2", "--project", at(project)};
         arguments.insert(arguments.end(), more.begin(), more.end());

@@ -7,6 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
+#include "cli/loaded_program.h"
 #include "store/project/project_file.h"
 #include "store/sweeps/sweep_store.h"
 #include "support/moving_scene.h"
@@ -52,10 +53,7 @@ class Sweep : public testing::Test {
  protected:
     std::string at(const std::string& name) const { return (folder / name).string(); }
     static std::string in(const std::string& name) { return (clip() / name).string(); }
-    static test::ProcessResult cli(std::vector<std::string> arguments) {
-        arguments.insert(arguments.begin(), test::programPath("eyrie-cli"));
-        return test::runProcess(arguments);
-    }
+    static test::ProcessResult cli(const std::vector<std::string>& arguments) { return test::runLoaded(arguments); }
     static std::vector<std::string> command(const std::vector<std::string>& more) {
         std::vector<std::string> arguments{
             "sweep", "--sequence", in("clip"), "--ground-truth", in("truth.csv"),
