@@ -63,8 +63,15 @@ class Batches : public testing::Test {
         return text.str();
     }
     std::vector<std::string> command(const std::string& name, const std::vector<std::string>& more = {}) const {
-        std::vector<std::string> words{
-            test::programPath("eyrie-cli"), name, at("in"), "--out", at("out"), "--gsd", "0.2"};
+        std::vector<std::string> words{test::programPath("eyrie-cli"),
+                                       name,
+                                       at("in"),
+                                       "--out",
+                                       at("out"),
+                                       "--gsd",
+                                       "0.2",
+                                       "--set",
+                                       "view.oblique=false"};
         words.insert(words.end(), more.begin(), more.end());
         return words;
     }
@@ -238,6 +245,10 @@ TEST_F(Batches, sameNamesInSeveralPlacesStayApart) {
                                    at("out"),
                                    "--frames",
                                    "0:9",
+                                   "--gsd",
+                                   "0.2",
+                                   "--set",
+                                   "view.oblique=false",
                                    at("cards/1/DCIM"),
                                    at("cards/2/DCIM"),
                                    at("cards/3/DCIM"),

@@ -38,8 +38,8 @@ class Compare : public testing::Test {
     }
     std::string at(const std::string& name) const { return (folder / name).string(); }
     test::ProcessResult compare(std::vector<std::string> more) const {
-        std::vector<std::string> arguments{"compare",       "--sequence", at("clip"), "--ground-truth",
-                                           at("truth.csv"), "--gsd",      "0.2",      "--quiet"};
+        std::vector<std::string> arguments{"compare", "--sequence", at("clip"), "--ground-truth", at("truth.csv"),
+                                           "--gsd",   "0.2",        "--quiet",  "--set",          "view.oblique=false"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         return test::runLoaded(arguments);
     }

@@ -59,7 +59,8 @@ class PartsCommand : public testing::Test {
         return words;
     }
     std::vector<std::string> runOfParts(const std::vector<std::string>& more = {}) const {
-        std::vector<std::string> words = onParts("run", {"--project", at("p.eyrie"), "--gsd", "0.2", "--quiet"});
+        std::vector<std::string> words =
+            onParts("run", {"--project", at("p.eyrie"), "--gsd", "0.2", "--set", "view.oblique=false", "--quiet"});
         words.insert(words.end(), more.begin(), more.end());
         return words;
     }
@@ -68,8 +69,8 @@ class PartsCommand : public testing::Test {
     /// digit.
     std::string tracksOfTheWhole() const {
         film(folder_ / "whole.mp4", 0, kFrames);
-        const auto result = call({"run", at("whole.mp4"), "--project", at("whole.eyrie"), "--gsd", "0.2", "--quiet",
-                                  "--fps", "25", "--tracks", at("whole.csv")});
+        const auto result = call({"run", at("whole.mp4"), "--project", at("whole.eyrie"), "--gsd", "0.2", "--set",
+                                  "view.oblique=false", "--quiet", "--fps", "25", "--tracks", at("whole.csv")});
         EXPECT_EQ(result.exit_code, 0) << result.errors;
         return textOf(at("whole.csv"));
     }

@@ -111,6 +111,8 @@ class ScoringAgreement : public testing::TestWithParam<std::tuple<std::string, b
                                                         detections() ? "off" : "on",
                                                         "--set",
                                                         "gradient.quantile=0.3",
+                                                        "--set",
+                                                        "view.oblique=false",
                                                         "--project",
                                                         at("p.eyrie"),
                                                         "--quiet",
