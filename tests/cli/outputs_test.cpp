@@ -155,9 +155,9 @@ TEST_F(Outputs, FilesOfTheSameKindNeedForce) {
     EXPECT_EQ(
         call({"export", "--from", "@boxes.csv", "--format", "trackeval", "--out", "@tree", "--name", "t"}).exit_code, 0)
         << "another sequence of the same tree";
-    ASSERT_EQ(call({"render", "demo", "--frames", "2", "--quiet", "--out", "@scene"}).exit_code, 0);
-    expectRefused({{"render", "demo", "--frames", "1", "--quiet", "--out", "@scene"}}, 4, "--force");
-    EXPECT_EQ(call({"render", "demo", "--frames", "1", "--quiet", "--out", "@scene", "--force"}).exit_code, 0);
+    ASSERT_EQ(call({"render", "stops", "--frames", "2", "--quiet", "--out", "@scene"}).exit_code, 0);
+    expectRefused({{"render", "stops", "--frames", "1", "--quiet", "--out", "@scene"}}, 4, "--force");
+    EXPECT_EQ(call({"render", "stops", "--frames", "1", "--quiet", "--out", "@scene", "--force"}).exit_code, 0);
     EXPECT_FALSE(fs::exists(at("scene/frames/000001.png")));
 }
 
