@@ -51,7 +51,7 @@ TEST_F(HandOver, ALiveSourceIsRecordedFollowedAndTold) {
     film(60);
     test::Process run(command({"run", address(), "--gsd", "0.2", "--set", "view.oblique=false", "--project",
                                at("live.eyrie"), "--give-up", "2", "--tracks", at("tracks.csv"), "--quiet"}));
-    const test::LiveSender sender(port_, {{folder_ / "film.ts", 6, 1}});
+    const test::LiveSender sender(port_, {{folder_ / "film.ts", 4, 1}});
     const test::ProcessResult result = run.wait();
     EXPECT_EQ(result.exit_code, 0) << result.errors;
     EXPECT_THAT(result.output, AllOf(HasSubstr("finished"), HasSubstr("Recording: " + at("live.ts")),
