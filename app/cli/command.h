@@ -7,7 +7,7 @@ class App;
 }
 
 /// The commands of eyrie-cli, one file each. A command adds its subcommand to `app`; its callback throws eyrie::Error
-/// for everything that goes wrong, which main() turns into a message and an exit code.
+/// for everything that goes wrong, which runProgram() turns into a message and an exit code.
 namespace eyrie::cli {
 
 /// Exit codes, documented in `eyrie-cli --help` and docs/manual.md.

@@ -10,9 +10,16 @@
 namespace eyrie::kept_details_run_test {
 namespace {
 
+/// What is kept does not depend on how vehicles are outlined.
+ChainOptions chainOptions() {
+    ChainOptions options;
+    options.detection.method = DetectionMethod::clusters;
+    return options;
+}
+
 int recordKeeping(const std::filesystem::path& project,
                   const std::vector<std::pair<std::string, std::string>>& values) {
-    const ChainOptions options;
+    const ChainOptions options = chainOptions();
     RecordingOptions recording;
     setParameters(describeOf(recording), values);
     const test::MovingScene scene;
@@ -68,7 +75,7 @@ TEST(KeptDetailsOfRuns, AreNoParametersOfTheChain) {
     const auto stored = RunStore(file).parameters(run);
     EXPECT_EQ(stored.back(), std::pair(std::string("recording.details"), std::string("none")));
     std::vector<std::string> unknown;
-    EXPECT_EQ(parameterValues(storedOptions(stored, &unknown)), parameterValues(ChainOptions{}));
+    EXPECT_EQ(parameterValues(storedOptions(stored, &unknown)), parameterValues(chainOptions()));
     EXPECT_TRUE(unknown.empty());
     EXPECT_EQ(RecordingOptions::among(stored).details, KeptDetails::none);
 }

@@ -26,6 +26,7 @@ using testing::HasSubstr;
 using Path = std::filesystem::path;
 
 constexpr int kFrames = 46;
+constexpr int kToTheEnd = 100000;  ///< more frames than there are
 
 /// The moving scene with a picture that repeats, a blank one and its repetition.
 cv::Mat picture(const test::MovingScene& scene, int frame) {
@@ -59,7 +60,7 @@ struct Watcher : ChainObserver {
     int frames_left;
     std::vector<FrameIndex> seen;
     std::vector<RunProgress> progress;
-    explicit Watcher(int frames = 100000) : frames_left(frames) {}
+    explicit Watcher(int frames = kToTheEnd) : frames_left(frames) {}
     void onFrame(const std::shared_ptr<const FrameResult>& result, const Frame&) override {
         seen.push_back(result->motion.frame);
         if (--frames_left == 0) stop.request_stop();
@@ -84,7 +85,7 @@ struct Resumed {
     std::vector<RunProgress> progress;
 };
 
-Resumed resume(const Path& project, int run_id, int stop_after = 100000) {
+Resumed resume(const Path& project, int run_id, int stop_after = kToTheEnd) {
     test::MemorySource source = clip();
     ResumedRun resumed = resumedRun(project, run_id, source);
     Watcher watcher(stop_after);
@@ -143,18 +144,23 @@ class RunResume : public testing::TestWithParam<Setting> {
 
 TEST_P(RunResume, GivesWhatARunThatWasNeverStoppedGives) {
     const ChainOptions& options = GetParam().options;
-    ASSERT_EQ(begin(folder / "whole.eyrie", options, 100000).state, RunState::finished);
-    // The next is a repeated picture, a second blank one, one like any other.
-    for (const int frames : {17, 26, 33}) {
-        SCOPED_TRACE(frames);
-        const Path stopped = folder / ("stopped-" + std::to_string(frames) + ".eyrie");
-        ASSERT_EQ(begin(stopped, options, frames).state, RunState::stopped);
-        const Resumed resumed = resume(stopped, 1);
-        EXPECT_EQ(resumed.run.state, RunState::finished) << resumed.summary.message;
+    const Path whole = folder / "whole.eyrie";
+    const Path stopped = folder / "stopped.eyrie";
+    ASSERT_EQ(begin(whole, options, kToTheEnd).state, RunState::finished);
+    // The next frame is a repeated picture, a second blank one, one like any other. What went wrong after one stop
+    // shows at the end.
+    ASSERT_EQ(begin(stopped, options, 17).state, RunState::stopped);
+    int done = 17;
+    for (const int end : {26, 33, kFrames}) {
+        SCOPED_TRACE(done);
+        const Resumed resumed = resume(stopped, 1, end == kFrames ? kToTheEnd : end - done);
+        EXPECT_EQ(resumed.run.state, end == kFrames ? RunState::finished : RunState::stopped)
+            << resumed.summary.message;
         EXPECT_EQ(resumed.restart, RestartReason::none);
-        EXPECT_EQ(resumed.last_done, frames - 1) << "no frame is done twice";
-        expectSame(folder / "whole.eyrie", stopped);
+        EXPECT_EQ(resumed.last_done, done - 1) << "no frame is done twice";
+        done = end;
     }
+    expectSame(whole, stopped);
 }
 
 INSTANTIATE_TEST_SUITE_P(Settings, RunResume, testing::ValuesIn(settings()), [](const auto& setting) {
@@ -165,11 +171,21 @@ INSTANTIATE_TEST_SUITE_P(Settings, RunResume, testing::ValuesIn(settings()), [](
 
 namespace {
 
+/// A run that was never stopped and one that was, made once for all tests.
+struct MadeRuns {
+    MadeRuns() {
+        begin(folder / "whole.eyrie", {}, kToTheEnd);
+        begin(folder / "stopped.eyrie", {}, 30);
+    }
+    const test::TemporaryFolder folder;
+};
+
 class StoppedRun : public testing::Test {
  protected:
     void SetUp() override {
-        begin(whole, {}, 100000);
-        begin(stopped, {}, 30);
+        static const MadeRuns made;
+        for (const Path& project : {whole, stopped})
+            std::filesystem::copy_file(made.folder.path() / project.filename(), project);
     }
     void change(const std::string& command) const {
         ProjectFile project = ProjectFile::open(stopped);
@@ -202,7 +218,7 @@ TEST_F(StoppedRun, CountsOnFromItsFrames) {
 }
 
 TEST_F(StoppedRun, OfARangeEndsWithTheRange) {
-    begin(whole, {}, 100000, {5, 40});
+    begin(whole, {}, kToTheEnd, {5, 40});
     begin(stopped, {}, 9, {5, 40});
     EXPECT_EQ(resume(stopped, 2).run.frames_done, 36);
     expectSame(whole, stopped, 2);
@@ -399,13 +415,18 @@ TEST_F(StoppedRun, ThatFailedGoesOnWhenTheCauseIsGone) {
 }
 
 TEST(KeptStates, ServeEveryFrameTheyWereKeptAfter) {
+    constexpr int kFollowed = 8;  ///< frames after each state; how runs go on to their end is told above
     struct Keeper : ChainObserver {
+        explicit Keeper(int frames = kToTheEnd) : frames_left(frames) {}
+        std::stop_source stop;
+        int frames_left;
         std::vector<ChainState> states;
         std::vector<std::shared_ptr<const FrameResult>> results;
         std::optional<StateKeeping> stateKeeping() const override { return StateKeeping{0, 1}; }
         void onState(const ChainState& state) override { states.push_back(state); }
         void onFrame(const std::shared_ptr<const FrameResult>& result, const Frame&) override {
             results.push_back(result);
+            if (--frames_left == 0) stop.request_stop();
         }
     };
     test::MemorySource source = clip();
@@ -414,11 +435,11 @@ TEST(KeptStates, ServeEveryFrameTheyWereKeptAfter) {
     ChainRun({}, scale).run(source, {}, whole, {});
     ASSERT_GT(whole.states.size(), 3U);
     for (const ChainState& state : whole.states) {
-        Keeper rest;
-        const RunSummary summary =
-            ChainRun({}, scale).run(source, {}, rest, {}, false, {unpackedState(state.bytes, {}, scale, source), 0});
-        ASSERT_EQ(summary.outcome, RunOutcome::finished) << summary.message;
-        ASSERT_EQ(static_cast<int>(rest.results.size()), kFrames - 1 - state.last_done);
+        Keeper rest(kFollowed);
+        const RunSummary summary = ChainRun({}, scale).run(source, {}, rest, rest.stop.get_token(), false,
+                                                           {unpackedState(state.bytes, {}, scale, source), 0});
+        ASSERT_NE(summary.outcome, RunOutcome::failed) << summary.message;
+        ASSERT_EQ(static_cast<int>(rest.results.size()), std::min(kFollowed, kFrames - 1 - state.last_done));
         for (const auto& result : rest.results) {
             const FrameResult& expected = *whole.results.at(std::size_t(result->motion.frame));
             ASSERT_EQ(result->motion.corner_count, expected.motion.corner_count);

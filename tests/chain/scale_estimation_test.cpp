@@ -26,12 +26,17 @@ class WithoutScale : public FrameSource {
     VideoInfo info_;
 };
 
+/// Looks for the scale alone, which comes before how it changes over the picture.
+ChainOptions fromAbove() {
+    ChainOptions options;
+    options.view.oblique = false;
+    return options;
+}
+
 /// What the first frames alone say.
 std::optional<ScaleEstimate> lookAt(FrameSource& source, const std::stop_token& stop = {}) {
     WithoutScale unknown(source);
-    ChainOptions options;
-    options.view.oblique = false;
-    return chooseScale(unknown, {0, 39}, options, {}, stop).estimate;
+    return chooseScale(unknown, {0, 39}, fromAbove(), {}, stop).estimate;
 }
 
 std::unique_ptr<FrameSource> sharedSource(const char* folder, double frame_rate_hz) {
@@ -45,7 +50,7 @@ std::unique_ptr<FrameSource> sharedSource(const char* folder, double frame_rate_
 TEST(ScaleEstimation, findsTheScaleOfRealTraffic) {
     EYRIE_NEED_SHARED_DATA("collage_day");
     const auto source = openSource(test::sharedData("collage_day/frames"));
-    const auto [scale, basis, estimate, why_not] = chooseScale(*source, {}, ChainOptions{}, {}, {});
+    const auto [scale, basis, estimate, why_not] = chooseScale(*source, {}, fromAbove(), {}, {});
     EXPECT_FALSE(scale.gsd_known) << "a guess is no knowledge";
     EXPECT_NEAR(scale.gsd_m_per_px, 0.2, kAllowed * 0.2);
     ASSERT_TRUE(estimate);
@@ -90,7 +95,7 @@ TEST(ScaleEstimation, aStatedScaleIsTakenAsItIsAndItIsKeptWhoStatedIt) {
 }
 
 TEST(ScaleEstimation, whatASourceKnowsItselfCountsAsGiven) {
-    const auto scene = openScene("seq2");
+    const auto scene = openScene("stops");
     const ChosenScale chosen = chooseScale(*scene, {}, ChainOptions{}, {}, {});
     EXPECT_EQ(chosen.basis, ScaleBasis{ScaleOrigin::given});
     EXPECT_EQ(chosen.scale.gsd_m_per_px, scene->info().gsd_m_per_px);
@@ -121,7 +126,7 @@ TEST(ScaleEstimation, withoutTrafficItFallsBackAndDoesNotFail) {
 TEST(ScaleEstimation, aStandingQueueAndOneRiderDoNotSettleTheScaleOfAllThatDrivesLater) {
     EYRIE_NEED_SHARED_DATA("uavdt_s1606");
     const auto source = sharedSource("uavdt_s1606/frames", 30);
-    const SceneScale scale = chooseScale(*source, {}, ChainOptions{}, {}, {}).scale;
+    const SceneScale scale = chooseScale(*source, {}, fromAbove(), {}, {}).scale;
     EXPECT_NEAR(scale.gsd_m_per_px, 0.09, kAllowed * 0.09) << "the first 40 frames alone say 0.15";
 }
 

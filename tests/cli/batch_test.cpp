@@ -64,8 +64,15 @@ class Batches : public testing::Test {
         return text.str();
     }
     std::vector<std::string> command(const std::string& name, const std::vector<std::string>& more = {}) const {
-        std::vector<std::string> words{
-            test::programPath("eyrie-cli"), name, at("in"), "--out", at("out"), "--gsd", "0.2"};
+        std::vector<std::string> words{test::programPath("eyrie-cli"),
+                                       name,
+                                       at("in"),
+                                       "--out",
+                                       at("out"),
+                                       "--gsd",
+                                       "0.2",
+                                       "--set",
+                                       "view.oblique=false"};
         words.insert(words.end(), more.begin(), more.end());
         return words;
     }
@@ -279,8 +286,12 @@ TEST_F(Batches, sameNamesInSeveralPlacesStayApart) {
                                    "batch",
                                    "--out",
                                    at("out"),
+                                   "--set",
+                                   "view.oblique=false",
                                    "--frames",
                                    "0:9",
+                                   "--gsd",
+                                   "0.2",
                                    at("cards/1/DCIM"),
                                    at("cards/2/DCIM"),
                                    at("cards/3/DCIM"),
@@ -324,13 +335,14 @@ TEST_F(Batches, textThatIsCalledAVideoIsListedWithTheReason) {
 
 TEST_F(Batches, aFileIsTakenOnceItHasArrived) {
     fs::create_directories(folder / "in");
-    test::Process process(command("watch", {"--settle", "3"}));
+    test::Process process(command("watch", {"--settle", "2"}));
     std::ifstream clip(drawnClip(), std::ios::binary);
     const std::string bytes{std::istreambuf_iterator<char>(clip), {}};
     std::ofstream arriving(folder / "in/a.mp4", std::ios::binary);
-    const std::size_t part = bytes.size() / 8 + 1;
-    // It comes slowly, as from a camera's card, yet more often than --settle says: there is nothing to wait for.
-    constexpr auto kBetweenParts = std::chrono::milliseconds(500);
+    const std::size_t part = bytes.size() / 12 + 1;
+    // It comes slowly, as from a camera's card, for longer than --settle says, yet each part much sooner: there is
+    // nothing to wait for.
+    constexpr auto kBetweenParts = std::chrono::milliseconds(250);
     for (std::size_t from = 0; from < bytes.size(); from += part) {
         arriving.write(bytes.data() + from, static_cast<std::streamsize>(std::min(part, bytes.size() - from)));
         arriving.flush();

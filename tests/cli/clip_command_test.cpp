@@ -1,15 +1,15 @@
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 
+#include "cli/loaded_program.h"
 #include "io/atomic_file.h"
 #include "io/video/frame_source.h"
 #include "io/video/video_writer.h"
 #include "store/project/project_file.h"
 #include "store/runs/result_writer.h"
-#include "support/places.h"
-#include "support/process.h"
 #include "support/temporary_folder.h"
 
 namespace eyrie::clip_command_test {
@@ -21,26 +21,29 @@ using testing::HasSubstr;
 constexpr int kVideoFrames = 250;
 const cv::Size kVideoSize(320, 200);
 
+int brightnessOf(int frame) {
+    return 20 + frame / 2;
+}
+
 /// What a run found in a real file: grey pictures that grow brighter frame by frame, and one vehicle that drives to
-/// x = 150 by frame 100 and stands there.
-class HandedOver : public testing::Test {
- protected:
-    HandedOver() {
+/// x = 150 by frame 100 and stands there. Made once for all tests.
+struct MadeClip {
+    MadeClip() {
         VideoWriterOptions options;
         options.quality = 4;
-        VideoWriter video(folder_ / "clip.mp4", kVideoSize, options);
+        VideoWriter video(folder / "clip.mp4", kVideoSize, options);
         for (int frame = 0; frame < kVideoFrames; ++frame)
             video.write(cv::Mat(kVideoSize, CV_8UC3, cv::Scalar::all(brightnessOf(frame))));
         video.finish();
         RunRecord run;
-        run.sequence = {.path = (folder_ / "clip.mp4").string(),
+        run.sequence = {.path = (folder / "clip.mp4").string(),
                         .size = kVideoSize,
                         .frame_count = kVideoFrames,
                         .frame_rate_hz = 25};
         run.last_frame = kVideoFrames - 1;
         run.scale = {0.2, 25, true};
-        ProjectFile::create(folder_ / "p.eyrie");
-        ResultWriter writer(folder_ / "p.eyrie", run, {});
+        ProjectFile::create(folder / "p.eyrie");
+        ResultWriter writer(folder / "p.eyrie", run, {});
         for (int frame = 0; frame < kVideoFrames; ++frame) {
             FrameResult result;
             result.motion.frame = frame;
@@ -60,15 +63,24 @@ class HandedOver : public testing::Test {
         }
         writer.finish(RunState::finished, "");
     }
-    static int brightnessOf(int frame) { return 20 + frame / 2; }
+    const test::TemporaryFolder folder;
+};
+
+class HandedOver : public testing::Test {
+ protected:
+    HandedOver() {
+        static const MadeClip made;
+        for (const char* name : {"clip.mp4", "p.eyrie"}) std::filesystem::copy_file(made.folder / name, folder_ / name);
+        ProjectFile project = ProjectFile::open(folder_ / "p.eyrie");
+        project.database().exec("UPDATE sequence SET path = '" + at("clip.mp4") + "'");
+    }
     std::string at(const std::string& name) const { return (folder_ / name).string(); }
     /// Words that begin with "@" are paths in the folder.
     test::ProcessResult call(std::vector<std::string> arguments) const {
         for (std::string& word : arguments) {
             if (word.starts_with('@')) word = at(word.substr(1));
         }
-        arguments.insert(arguments.begin(), test::programPath("eyrie-cli"));
-        return test::runProcess(arguments);
+        return test::runLoaded(arguments);
     }
     /// How many frames a clip has, and how bright its first one is far from the vehicle.
     std::pair<int, int> framesAndBrightness(const std::string& name) const {

@@ -5,12 +5,14 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
+#include "cli/loaded_program.h"
 #include "store/project/project_file.h"
 #include "store/runs/run_store.h"
 #include "support/moving_scene.h"
 #include "support/places.h"
 #include "support/process.h"
 #include "support/shared_data.h"
+#include "support/wait_until.h"
 
 namespace eyrie::command_line_test {
 namespace {
@@ -20,9 +22,8 @@ using testing::Not;
 
 const std::string program = test::programPath("eyrie-cli");
 
-test::ProcessResult cli(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), program);
-    return test::runProcess(arguments);
+test::ProcessResult cli(const std::vector<std::string>& arguments) {
+    return test::runLoaded(arguments);
 }
 
 class CommandLine : public testing::Test {
@@ -38,14 +39,27 @@ class CommandLine : public testing::Test {
         return at("clip");
     }
     void write(const std::string& name, const std::string& text) const { std::ofstream(at(name)) << text; }
+    /// Until so many are stored by the run of p.eyrie, which another process does.
+    void waitForFrames(int frames) const {
+        test::waitUntil("frames are done", [&] {
+            try {
+                ProjectFile project = ProjectFile::open(folder / "p.eyrie", ProjectFile::Mode::read_only);
+                const auto runs = RunStore(project).runs();
+                return !runs.empty() && runs[0].frames_done >= frames;
+            } catch (const std::exception&) {
+                return false;
+            }
+        });
+    }
     const test::TemporaryFolder folder;
 };
 
 }  // namespace
 
 TEST_F(CommandLine, runWritesProjectTracksDetectionsTimingAndVideo) {
-    const auto result = cli({"run", clip(), "--gsd", "0.2", "--project", at("p.eyrie"), "--tracks", at("t.csv"),
-                             "--detections", at("d.csv"), "--timing", at("t.json"), "--annotated", at("a.mp4")});
+    const auto result =
+        test::runProcess({program, "run", clip(), "--gsd", "0.2", "--project", at("p.eyrie"), "--tracks", at("t.csv"),
+                          "--detections", at("d.csv"), "--timing", at("t.json"), "--annotated", at("a.mp4")});
     ASSERT_EQ(result.exit_code, 0) << result.errors;
     EXPECT_THAT(result.output, HasSubstr("30 of 30 frames"));
     EXPECT_THAT(result.output, HasSubstr("km/h"));
@@ -65,7 +79,8 @@ TEST_F(CommandLine, runWritesProjectTracksDetectionsTimingAndVideo) {
 TEST_F(CommandLine, aFrameRateGivenOnceCountsForLaterRuns) {
     const std::string input = clip(3);
     for (const auto& rate : std::vector<std::vector<std::string>>{{"--fps", "30"}, {}, {"--fps", "10"}, {}}) {
-        std::vector<std::string> command{"run", input, "--gsd", "0.2", "--project", at("p.eyrie")};
+        std::vector<std::string> command{"run",       input,        "--gsd", "0.2", "--set", "view.oblique=false",
+                                         "--project", at("p.eyrie")};
         command.insert(command.end(), rate.begin(), rate.end());
         ASSERT_EQ(cli(command).exit_code, 0);
     }
@@ -86,7 +101,8 @@ TEST_F(CommandLine, aRunThatFollowsNothingSaysWhy) {
 }
 
 TEST_F(CommandLine, aScaleWithWhichNothingCanBeFoundIsTheCauseThatIsTold) {
-    const auto result = cli({"run", clip(), "--gsd", "9", "--project", at("p.eyrie"), "--quiet"});
+    const auto result =
+        cli({"run", clip(), "--gsd", "9", "--set", "view.oblique=false", "--project", at("p.eyrie"), "--quiet"});
     EXPECT_EQ(result.exit_code, 0) << result.errors;
     EXPECT_THAT(result.errors, HasSubstr("--gsd 9: at 9 m/px a car is 0.5 px long")) << "before the run";
     EXPECT_THAT(result.output, HasSubstr("Vehicles followed: 0: at 9 m/px a car is 0.5 px long"));
@@ -98,7 +114,10 @@ TEST_F(CommandLine, whoeverChoosesNoRunIsToldWhichOneIsTaken) {
     const std::vector<std::string> report{"report", "--project",  at("p.eyrie"), "--events",
                                           "--out",  at("r.html"), "--force"};
     for (const char* name : {"morning", "evening"}) {
-        ASSERT_EQ(cli({"run", input, "--gsd", "0.2", "--project", at("p.eyrie"), "--name", name}).exit_code, 0);
+        ASSERT_EQ(cli({"run", input, "--gsd", "0.2", "--set", "view.oblique=false", "--project", at("p.eyrie"),
+                       "--name", name})
+                      .exit_code,
+                  0);
         if (std::string(name) == "morning") {
             EXPECT_THAT(cli(report).errors, Not(HasSubstr("taking"))) << "the only one";
         }
@@ -113,7 +132,8 @@ TEST_F(CommandLine, whoeverChoosesNoRunIsToldWhichOneIsTaken) {
 }
 
 TEST_F(CommandLine, frameRangeIsInclusiveAndChecked) {
-    const auto result = cli({"run", clip(), "--frames", "5:14", "--project", at("p.eyrie")});
+    const auto result = cli(
+        {"run", clip(), "--frames", "5:14", "--gsd", "0.2", "--set", "view.oblique=false", "--project", at("p.eyrie")});
     EXPECT_EQ(result.exit_code, 0) << result.errors;
     EXPECT_THAT(result.output, HasSubstr("10 of 10 frames"));
     for (const char* bad : {"9:5", "a:b", "-3:4", "", "5:6:7"}) {
@@ -169,7 +189,7 @@ TEST_F(CommandLine, unusableInputsAreNamed) {
 TEST_F(CommandLine, aBrokenImageAmidASequenceKeepsTheFramesBefore) {
     const std::string input = clip(20);
     write("clip/1012.png", "broken");
-    const auto result = cli({"run", input, "--project", at("p.eyrie")});
+    const auto result = cli({"run", input, "--gsd", "0.2", "--set", "view.oblique=false", "--project", at("p.eyrie")});
     EXPECT_EQ(result.exit_code, 3);
     EXPECT_THAT(result.errors, HasSubstr("1012.png"));
     ProjectFile project = ProjectFile::open(folder / "p.eyrie");
@@ -194,7 +214,7 @@ TEST_F(CommandLine, aTruncatedVideoGivesWhatItHoldsOrSaysWhy) {
     std::ifstream whole(test::sharedData("uavdt_m1303/clip.mp4"), std::ios::binary);
     std::string bytes((std::istreambuf_iterator<char>(whole)), {});
     write("half.mp4", bytes.substr(0, bytes.size() / 2));
-    const auto result = cli({"run", at("half.mp4"), "--frames", "0:5", "--project", at("p.eyrie")});
+    const auto result = cli({"run", at("half.mp4"), "--frames", "0:5", "--gsd", "0.2", "--project", at("p.eyrie")});
     if (result.exit_code != 0) {
         EXPECT_EQ(result.exit_code, 3);
         EXPECT_THAT(result.errors, HasSubstr("half.mp4"));
@@ -202,17 +222,8 @@ TEST_F(CommandLine, aTruncatedVideoGivesWhatItHoldsOrSaysWhy) {
 }
 
 TEST_F(CommandLine, ctrlCStopsCleanlyAndKeepsWhatIsDone) {
-    test::Process process({program, "run", "scene:seq1", "--project", at("p.eyrie"), "--quiet"});
-    // Wait until frames are in the file, then interrupt.
-    for (int frames = 0; frames < 3;) {
-        try {
-            ProjectFile project = ProjectFile::open(folder / "p.eyrie", ProjectFile::Mode::read_only);
-            const auto runs = RunStore(project).runs();
-            frames = runs.empty() ? 0 : runs[0].frames_done;
-        } catch (const std::exception&) {
-            frames = 0;
-        }
-    }
+    test::Process process({program, "run", "scene:demo", "--project", at("p.eyrie"), "--quiet"});
+    waitForFrames(3);
     kill(process.pid(), SIGINT);
     const auto result = process.wait();
     EXPECT_EQ(result.exit_code, 130) << result.errors;
@@ -222,16 +233,8 @@ TEST_F(CommandLine, ctrlCStopsCleanlyAndKeepsWhatIsDone) {
 }
 
 TEST_F(CommandLine, aKilledRunOpensAgainWithItsWholeFrames) {
-    test::Process process({program, "run", "scene:seq1", "--project", at("p.eyrie"), "--quiet"});
-    for (int frames = 0; frames < 3;) {
-        try {
-            ProjectFile project = ProjectFile::open(folder / "p.eyrie", ProjectFile::Mode::read_only);
-            const auto runs = RunStore(project).runs();
-            frames = runs.empty() ? 0 : runs[0].frames_done;
-        } catch (const std::exception&) {
-            frames = 0;
-        }
-    }
+    test::Process process({program, "run", "scene:demo", "--project", at("p.eyrie"), "--quiet"});
+    waitForFrames(3);
     kill(process.pid(), SIGKILL);
     process.wait();
     const auto info = cli({"info", at("p.eyrie")});

@@ -7,12 +7,11 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
+#include "cli/loaded_program.h"
 #include "store/project/project_file.h"
 #include "store/runs/run_store.h"
 #include "store/sweeps/comparison_store.h"
 #include "support/moving_scene.h"
-#include "support/places.h"
-#include "support/process.h"
 
 namespace eyrie::compare_test {
 namespace {
@@ -39,17 +38,10 @@ class Compare : public testing::Test {
     }
     std::string at(const std::string& name) const { return (folder / name).string(); }
     test::ProcessResult compare(std::vector<std::string> more) const {
-        std::vector<std::string> arguments{test::programPath("eyrie-cli"),
-                                           "compare",
-                                           "--sequence",
-                                           at("clip"),
-                                           "--ground-truth",
-                                           at("truth.csv"),
-                                           "--gsd",
-                                           "0.2",
-                                           "--quiet"};
+        std::vector<std::string> arguments{"compare", "--sequence", at("clip"), "--ground-truth", at("truth.csv"),
+                                           "--gsd",   "0.2",        "--quiet",  "--set",          "view.oblique=false"};
         arguments.insert(arguments.end(), more.begin(), more.end());
-        return test::runProcess(arguments);
+        return test::runLoaded(arguments);
     }
     const test::TemporaryFolder folder;
 };
@@ -166,9 +158,8 @@ TEST_F(Compare, SaysWhatIsWrong) {
 }
 
 TEST_F(Compare, BenchHasARowForEveryStageAndMethod) {
-    const auto result =
-        test::runProcess({test::programPath("eyrie-cli"), "bench", "--input", at("clip"), "--gsd", "0.2", "--frames",
-                          "10", "--corners", "600", "--set", "stacking.enabled=true", "--json"});
+    const auto result = test::runLoaded({"bench", "--input", at("clip"), "--gsd", "0.2", "--frames", "10", "--corners",
+                                         "600", "--set", "stacking.enabled=true", "--json"});
     ASSERT_EQ(result.exit_code, 0) << result.errors;
     const auto json = nlohmann::json::parse(result.output);
     ASSERT_EQ(json["columns"].size(), 1U);
@@ -188,8 +179,8 @@ TEST_F(Compare, BenchHasARowForEveryStageAndMethod) {
 }
 
 TEST_F(Compare, BenchNeedsMoreFramesThanItIsToLeaveOut) {
-    const auto result = test::runProcess({test::programPath("eyrie-cli"), "bench", "--input", at("clip"), "--gsd",
-                                          "0.2", "--frames", "10", "--warm-up", "5000", "--corners", "600"});
+    const auto result = test::runLoaded(
+        {"bench", "--input", at("clip"), "--gsd", "0.2", "--frames", "10", "--warm-up", "5000", "--corners", "600"});
     EXPECT_EQ(result.exit_code, 3);
     EXPECT_THAT(result.errors, HasSubstr("more than 5000 frames are needed"));
 }

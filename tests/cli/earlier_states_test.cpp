@@ -4,11 +4,10 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "cli/loaded_program.h"
 #include "store/backup/project_backup.h"
 #include "store/labels/annotation_store.h"
 #include "store/project/project_presets.h"
-#include "support/places.h"
-#include "support/process.h"
 
 namespace eyrie::earlier_states_test {
 namespace {
@@ -23,10 +22,7 @@ class EarlierStates : public testing::Test {
         std::ofstream(at("truth.csv")) << "frame,id,x,y,length,width,heading,class,ignore\n0,1,100,100,20,10,0,car,0\n";
     }
     std::string at(const std::string& name) const { return (folder_ / name).string(); }
-    static test::ProcessResult cli(std::vector<std::string> arguments) {
-        arguments.insert(arguments.begin(), test::programPath("eyrie-cli"));
-        return test::runProcess(arguments);
-    }
+    static test::ProcessResult cli(const std::vector<std::string>& arguments) { return test::runLoaded(arguments); }
     test::ProcessResult import() const { return cli({"import", at("truth.csv"), "--project", at("p.eyrie")}); }
     nlohmann::json backups() const {
         const auto result = cli({"backups", at("p.eyrie"), "--json"});

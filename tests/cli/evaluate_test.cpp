@@ -4,11 +4,10 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "cli/loaded_program.h"
 #include "store/project/project_file.h"
 #include "store/runs/result_writer.h"
 #include "store/runs/run_store.h"
-#include "support/places.h"
-#include "support/process.h"
 #include "support/shared_data.h"
 #include "support/temporary_folder.h"
 
@@ -26,8 +25,8 @@ class Evaluate : public testing::Test {
         return at(name);
     }
     static test::ProcessResult evaluate(std::vector<std::string> arguments) {
-        arguments.insert(arguments.begin(), {test::programPath("eyrie-cli"), "evaluate"});
-        return test::runProcess(arguments);
+        arguments.insert(arguments.begin(), "evaluate");
+        return test::runLoaded(arguments);
     }
     /// Two cars for four frames; the second one stands and is ignored.
     std::string truth() const {
@@ -165,8 +164,7 @@ TEST_F(Evaluate, theLabelsOfTheProjectAreTheTruthWhereNoneIsNamed) {
     write("labels.csv",
           "frame,id,x,y,length,width,heading\n0,1,50,40,20,10,0\n1,1,54,40,20,10,0\n2,1,58,40,20,10,0\n"
           "3,1,62,40,20,10,0\n");
-    const auto labels =
-        test::runProcess({test::programPath("eyrie-cli"), "import", at("labels.csv"), "--project", path});
+    const auto labels = test::runLoaded({"import", at("labels.csv"), "--project", path});
     ASSERT_EQ(labels.exit_code, 0) << labels.errors;
     const auto table = evaluate({"--project", path});
     EXPECT_EQ(table.exit_code, 0) << table.errors;
@@ -181,7 +179,6 @@ TEST_F(Evaluate, theLabelsOfTheProjectAreTheTruthWhereNoneIsNamed) {
 }
 
 TEST_F(Evaluate, theTruthMayHaveAnyFormatThatImportReads) {
-    const std::string cli = test::programPath("eyrie-cli");
     write("plain.csv",
           "frame,id,x,y,length,width,heading,class\n0,1,50,40,20,10,0,car\n1,1,54,40,20,10,0,car\n"
           "2,1,58,40,20,10,0,car\n");
@@ -191,8 +188,7 @@ TEST_F(Evaluate, theTruthMayHaveAnyFormatThatImportReads) {
         write("video.csv", "");
         const std::string out = at(format + (format == "uavdt" ? "_gt.txt" : ""));
         write("seqinfo.ini", "[Sequence]\nimWidth=160\nimHeight=120\n");
-        const auto made =
-            test::runProcess({cli, "export", "--from", at("plain.csv"), "--format", format, "--out", out});
+        const auto made = test::runLoaded({"export", "--from", at("plain.csv"), "--format", format, "--out", out});
         ASSERT_EQ(made.exit_code, 0) << format << made.errors;
         std::filesystem::remove(at("seqinfo.ini"));
         const auto result = evaluate({"--ground-truth", out, "--project", path, "--json", "--overlap", "0.7"});

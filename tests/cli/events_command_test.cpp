@@ -121,8 +121,8 @@ TEST_F(EventsCommand, ZonesOfTheProjectAreWatchedWhereNoFileIsGiven) {
     const auto file = call({"--project", "@p.eyrie", "--kind", "crosses", "--zone", "@zones.json"});
     EXPECT_THAT(file.output, AllOf(HasSubstr("gate"), HasSubstr("1 event of"), Not(HasSubstr("gate 200"))));
     EXPECT_EQ(file.errors, "");
-    const auto report = test::runProcess({test::programPath("eyrie-cli"), "report", "--project", at("p.eyrie"),
-                                          "--events", "--verdict", "all", "--out", at("r.html")});
+    const auto report =
+        test::runLoaded({"report", "--project", at("p.eyrie"), "--events", "--verdict", "all", "--out", at("r.html")});
     EXPECT_EQ(report.exit_code, 0) << report.errors;
     EXPECT_THAT(report.errors, HasSubstr("watching the zones of the project"));
     EXPECT_THAT(textOf("r.html"), AllOf(HasSubstr("Watched: gate 200, a line."), HasSubstr("crosses: gate 300")));
@@ -248,17 +248,10 @@ TEST_F(EventsCommand, TracksAreThoseThatPeopleCorrectedUnlessTheRunsOwnAreAskedF
     EXPECT_THAT(own.output, AllOf(HasSubstr("3 events of 1 tracks"), Not(HasSubstr("people"))));
     EXPECT_THAT(textOf("own.csv"), Not(HasSubstr("person: ")));
     const auto written = [&](const std::vector<std::string>& more) {
-        std::vector<std::string> words{test::programPath("eyrie-cli"),
-                                       "export",
-                                       "--project",
-                                       at("p.eyrie"),
-                                       "--format",
-                                       "tracks-csv",
-                                       "--out",
-                                       at("t.csv"),
-                                       "--force"};
+        std::vector<std::string> words{"export",     "--project", at("p.eyrie"), "--format",
+                                       "tracks-csv", "--out",     at("t.csv"),   "--force"};
         words.insert(words.end(), more.begin(), more.end());
-        const auto exported = test::runProcess(words);
+        const auto exported = test::runLoaded(words);
         EXPECT_EQ(exported.exit_code, 0) << exported.errors;
         return exported.output + textOf("t.csv");
     };
@@ -289,17 +282,10 @@ TEST_F(EventsCommand, RejectedTracksAreLeftOutAndListedAmongWhatPeopleCorrected)
     EXPECT_THAT(call({"--project", "@traffic.eyrie", "--uncorrected"}).output,
                 AllOf(HasSubstr("of 3 tracks"), Not(HasSubstr("rejected"))));
     const auto exported = [&](const std::vector<std::string>& more) {
-        std::vector<std::string> words{test::programPath("eyrie-cli"),
-                                       "export",
-                                       "--project",
-                                       at("traffic.eyrie"),
-                                       "--format",
-                                       "tracks-csv",
-                                       "--out",
-                                       at("t.csv"),
-                                       "--force"};
+        std::vector<std::string> words{"export",     "--project", at("traffic.eyrie"), "--format",
+                                       "tracks-csv", "--out",     at("t.csv"),         "--force"};
         words.insert(words.end(), more.begin(), more.end());
-        const auto written = test::runProcess(words);
+        const auto written = test::runLoaded(words);
         EXPECT_EQ(written.exit_code, 0) << written.errors;
         return written.output + textOf("t.csv");
     };

@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "support/places.h"
-#include "support/process.h"
+#include "cli/loaded_program.h"
 #include "support/temporary_folder.h"
 #include "support/written_run.h"
 
@@ -30,8 +29,8 @@ class EventsFolder : public testing::Test {
         for (std::string& word : arguments) {
             if (word.starts_with('@')) word = at(word.substr(1));
         }
-        arguments.insert(arguments.begin(), {programPath("eyrie-cli"), "events"});
-        return runProcess(arguments);
+        arguments.insert(arguments.begin(), "events");
+        return runLoaded(arguments);
     }
     /// A run at 0.2 m/px and 25 Hz.
     static RunRecord runOver(const std::string& video, cv::Size size, int frames, bool gsd_known = true) {

@@ -3,10 +3,9 @@
 
 #include <fstream>
 
+#include "cli/loaded_program.h"
 #include "store/project/project_file.h"
 #include "store/runs/result_writer.h"
-#include "support/places.h"
-#include "support/process.h"
 #include "support/temporary_folder.h"
 
 namespace eyrie::exit_codes_test {
@@ -45,8 +44,7 @@ class ExitCodes : public testing::Test {
         for (std::string& word : arguments) {
             if (word.starts_with('@')) word = (folder_ / word.substr(1)).string();
         }
-        arguments.insert(arguments.begin(), test::programPath("eyrie-cli"));
-        return test::runProcess(arguments);
+        return test::runLoaded(arguments);
     }
     void expect(const std::vector<Call>& calls) const {
         for (const Call& one : calls) {

@@ -4,12 +4,11 @@
 #include <fstream>
 #include <sstream>
 
+#include "cli/loaded_program.h"
 #include "store/labels/annotation_store.h"
 #include "store/project/project_file.h"
 #include "store/runs/result_writer.h"
 #include "store/runs/run_store.h"
-#include "support/places.h"
-#include "support/process.h"
 #include "support/shared_data.h"
 #include "support/temporary_folder.h"
 
@@ -32,10 +31,7 @@ class LabelCommands : public testing::Test {
         text << std::ifstream(at(name), std::ios::binary).rdbuf();
         return text.str();
     }
-    static test::ProcessResult cli(std::vector<std::string> arguments) {
-        arguments.insert(arguments.begin(), test::programPath("eyrie-cli"));
-        return test::runProcess(arguments);
-    }
+    static test::ProcessResult cli(const std::vector<std::string>& arguments) { return test::runLoaded(arguments); }
     static double xOf(int frame) { return 40 + 3.0 * frame - 0.25 * frame; }
     /// A car at constant speed over the ground for 30 frames, seen by a camera that moves by 0.25 px; and a van that
     /// hides in frames 10 to 14.

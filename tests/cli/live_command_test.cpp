@@ -5,6 +5,7 @@
 #include <iterator>
 #include <opencv2/imgproc.hpp>
 
+#include "cli/loaded_program.h"
 #include "io/video/video_writer.h"
 #include "support/live_sender.h"
 #include "support/live_server.h"
@@ -40,9 +41,7 @@ class HandOver : public testing::Test {
         arguments.insert(arguments.begin(), test::programPath("eyrie-cli"));
         return arguments;
     }
-    static test::ProcessResult call(std::vector<std::string> arguments) {
-        return test::runProcess(command(std::move(arguments)));
-    }
+    static test::ProcessResult call(const std::vector<std::string>& arguments) { return test::runLoaded(arguments); }
     std::string address() const { return "udp://127.0.0.1:" + std::to_string(port_); }
     test::TemporaryFolder folder_;
     int port_ = test::freePort();
@@ -50,9 +49,9 @@ class HandOver : public testing::Test {
 
 TEST_F(HandOver, ALiveSourceIsRecordedFollowedAndTold) {
     film(60);
-    test::Process run(command({"run", address(), "--gsd", "0.2", "--project", at("live.eyrie"), "--give-up", "2",
-                               "--tracks", at("tracks.csv"), "--quiet"}));
-    const test::LiveSender sender(port_, {{folder_ / "film.ts", 6, 1}});
+    test::Process run(command({"run", address(), "--gsd", "0.2", "--set", "view.oblique=false", "--project",
+                               at("live.eyrie"), "--give-up", "2", "--tracks", at("tracks.csv"), "--quiet"}));
+    const test::LiveSender sender(port_, {{folder_ / "film.ts", 4, 1}});
     const test::ProcessResult result = run.wait();
     EXPECT_EQ(result.exit_code, 0) << result.errors;
     EXPECT_THAT(result.output, AllOf(HasSubstr("finished"), HasSubstr("Recording: " + at("live.ts")),
@@ -66,7 +65,8 @@ TEST_F(HandOver, ALiveSourceIsRecordedFollowedAndTold) {
 
 TEST_F(HandOver, CtrlCEndsALiveRunAndKeepsIt) {
     film(200);
-    test::Process run(command({"run", address(), "--gsd", "0.2", "--project", at("live.eyrie"), "--quiet"}));
+    test::Process run(command(
+        {"run", address(), "--gsd", "0.2", "--set", "view.oblique=false", "--project", at("live.eyrie"), "--quiet"}));
     const test::LiveSender sender(port_, {{folder_ / "film.ts", 20, 1}});
     test::waitUntil("something is recorded", [&] {
         std::error_code absent;
@@ -143,7 +143,10 @@ TEST_F(HandOver, WhatIsOfUseWithALiveSourceOnlyIsRefusedWithAFile) {
 
 TEST_F(HandOver, TracksGoIntoACopyOfTheTransportStream) {
     film(40);
-    ASSERT_EQ(call({"run", at("film.ts"), "--gsd", "0.2", "--project", at("p.eyrie"), "--quiet"}).exit_code, 0);
+    ASSERT_EQ(call({"run", at("film.ts"), "--gsd", "0.2", "--set", "view.oblique=false", "--project", at("p.eyrie"),
+                    "--quiet"})
+                  .exit_code,
+              0);
     const auto unknown = call({"export", "--project", at("p.eyrie"), "--format", "vmti", "--out", at("copy.ts")});
     EXPECT_EQ(unknown.exit_code, 3) << "nobody said when the video was taken";
     EXPECT_THAT(unknown.errors, HasSubstr("--start"));
@@ -167,8 +170,8 @@ TEST_F(HandOver, TracksGoIntoACopyOfTheTransportStream) {
 
 TEST_F(HandOver, ARunThatKeptTracksOnlySaysSoWhereMoreIsAskedFor) {
     film(40);
-    ASSERT_EQ(call({"run", at("film.ts"), "--gsd", "0.2", "--project", at("p.eyrie"), "--quiet", "--set",
-                    "recording.details=none"})
+    ASSERT_EQ(call({"run", at("film.ts"), "--gsd", "0.2", "--set", "view.oblique=false", "--project", at("p.eyrie"),
+                    "--quiet", "--set", "recording.details=none"})
                   .exit_code,
               0);
     EXPECT_EQ(call({"export", "--project", at("p.eyrie"), "--format", "tracks-csv", "--out", at("t.csv")}).exit_code,

@@ -5,9 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "cli/loaded_program.h"
 #include "support/klv_writer.h"
-#include "support/places.h"
-#include "support/process.h"
 #include "support/shared_data.h"
 #include "support/temporary_folder.h"
 
@@ -27,10 +26,7 @@ class MetadataCommand : public testing::Test {
         return text.str();
     }
     static std::string shared(const std::string& name) { return (test::sharedData("klv") / name).string(); }
-    test::ProcessResult call(std::vector<std::string> arguments) const {
-        arguments.insert(arguments.begin(), {test::programPath("eyrie-cli")});
-        return test::runProcess(arguments);
-    }
+    test::ProcessResult call(const std::vector<std::string>& arguments) const { return test::runLoaded(arguments); }
     test::TemporaryFolder folder_;
 };
 

@@ -10,6 +10,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <thread>
 
+#include "cli/loaded_program.h"
 #include "io/atomic_file.h"
 #include "store/project/project_file.h"
 #include "store/runs/result_writer.h"
@@ -61,8 +62,7 @@ class Outputs : public testing::Test {
         for (std::string& word : arguments) {
             if (word.starts_with('@')) word = at(word.substr(1));
         }
-        arguments.insert(arguments.begin(), test::programPath("eyrie-cli"));
-        return test::runProcess(arguments);
+        return test::runLoaded(arguments);
     }
     /// The same through a shell, where `redirection` says what becomes of the streams.
     test::ProcessResult shell(const std::string& arguments, const std::string& redirection) const {
@@ -155,9 +155,9 @@ TEST_F(Outputs, FilesOfTheSameKindNeedForce) {
     EXPECT_EQ(
         call({"export", "--from", "@boxes.csv", "--format", "trackeval", "--out", "@tree", "--name", "t"}).exit_code, 0)
         << "another sequence of the same tree";
-    ASSERT_EQ(call({"render", "demo", "--frames", "2", "--quiet", "--out", "@scene"}).exit_code, 0);
-    expectRefused({{"render", "demo", "--frames", "1", "--quiet", "--out", "@scene"}}, 4, "--force");
-    EXPECT_EQ(call({"render", "demo", "--frames", "1", "--quiet", "--out", "@scene", "--force"}).exit_code, 0);
+    ASSERT_EQ(call({"render", "stops", "--frames", "2", "--quiet", "--out", "@scene"}).exit_code, 0);
+    expectRefused({{"render", "stops", "--frames", "1", "--quiet", "--out", "@scene"}}, 4, "--force");
+    EXPECT_EQ(call({"render", "stops", "--frames", "1", "--quiet", "--out", "@scene", "--force"}).exit_code, 0);
     EXPECT_FALSE(fs::exists(at("scene/frames/000001.png")));
 }
 
@@ -191,9 +191,10 @@ TEST_F(Outputs, PrintingThatIsLostIsAnError) {
 TEST_F(Outputs, ARunOnAFullDiskIsFour) {
     const std::string clip = frames(30);
     // The file system's limit stands in for its end.
-    const auto result = test::runProcess({"/bin/sh", "-c",
-                                          "trap '' XFSZ; ulimit -f 400; exec " + test::programPath("eyrie-cli") +
-                                              " run " + clip + " --gsd 0.2 --quiet --project " + at("n.eyrie")});
+    const auto result =
+        test::runProcess({"/bin/sh", "-c",
+                          "trap '' XFSZ; ulimit -f 400; exec " + test::programPath("eyrie-cli") + " run " + clip +
+                              " --gsd 0.2 --set view.oblique=false --quiet --project " + at("n.eyrie")});
     EXPECT_EQ(result.exit_code, 4) << result.errors;
     EXPECT_THAT(result.errors, HasSubstr("n.eyrie"));
 }
@@ -201,7 +202,9 @@ TEST_F(Outputs, ARunOnAFullDiskIsFour) {
 TEST_F(Outputs, ARunWhoseInputBreaksIsThree) {
     const std::string clip = frames(6);
     std::ofstream(clip + "/104.png", std::ios::trunc) << "broken";
-    EXPECT_EQ(call({"run", clip, "--gsd", "0.2", "--quiet", "--project", "@n.eyrie"}).exit_code, 3);
+    EXPECT_EQ(call({"run", clip, "--gsd", "0.2", "--set", "view.oblique=false", "--quiet", "--project", "@n.eyrie"})
+                  .exit_code,
+              3);
 }
 
 TEST_F(Outputs, PipesAreNoInputs) {
@@ -234,10 +237,14 @@ TEST_F(Outputs, NamesNeedNotBeUtf8) {
     for (int frame = 0; frame < 8; ++frame) truth += std::to_string(frame) + ",1,100,120,24,11,0,car,0\n";
     write("truth.csv", truth);
     const auto sweep = call({"sweep", "--sequence", odd.string(), "--ground-truth", "@truth.csv", "--gsd", "0.2",
-                             "--out", "@s.eyrie", "--quiet", "--parameter", "tracking.min_overlap=0.3,0.5", "--json"});
+                             "--set", "view.oblique=false", "--out", "@s.eyrie", "--quiet", "--parameter",
+                             "tracking.min_overlap=0.3,0.5", "--json"});
     EXPECT_EQ(sweep.exit_code, 0) << sweep.errors;
     EXPECT_NO_THROW(nlohmann::json::parse(sweep.output));
-    ASSERT_EQ(call({"run", odd.string(), "--gsd", "0.2", "--quiet", "--project", "@odd.eyrie"}).exit_code, 0);
+    ASSERT_EQ(
+        call({"run", odd.string(), "--gsd", "0.2", "--set", "view.oblique=false", "--quiet", "--project", "@odd.eyrie"})
+            .exit_code,
+        0);
     EXPECT_NO_THROW(nlohmann::json::parse(call({"info", "@odd.eyrie", "--json"}).output));
     ASSERT_EQ(call({"export", "--project", "@odd.eyrie", "--format", "cvat", "--out", "@odd.xml"}).exit_code, 0);
     EXPECT_EQ(call({"import", "@odd.xml", "--show"}).exit_code, 0) << "read as UTF-8";
@@ -272,7 +279,8 @@ TEST_F(Outputs, FoldersAndNamesThatCannotBeLookedAtAreNoDefect) {
 
 TEST_F(Outputs, AClosedTerminalStopsARunCleanly) {
     const std::string clip = frames(120);
-    test::Process process({test::programPath("eyrie-cli"), "run", clip, "--gsd", "0.2", "--project", at("n.eyrie")});
+    test::Process process({test::programPath("eyrie-cli"), "run", clip, "--gsd", "0.2", "--set", "view.oblique=false",
+                           "--project", at("n.eyrie")});
     test::waitUntil("the run has made its project", [&] { return fs::exists(at("n.eyrie")); });
     kill(process.pid(), SIGHUP);
     const auto result = process.wait();

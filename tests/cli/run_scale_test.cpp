@@ -4,8 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "support/places.h"
-#include "support/process.h"
+#include "cli/loaded_program.h"
 #include "support/shared_data.h"
 #include "support/temporary_folder.h"
 
@@ -18,10 +17,7 @@ using testing::HasSubstr;
 class RunScale : public testing::Test {
  protected:
     std::string at(const std::string& name) const { return (folder_ / name).string(); }
-    static test::ProcessResult call(std::vector<std::string> arguments) {
-        arguments.insert(arguments.begin(), test::programPath("eyrie-cli"));
-        return test::runProcess(arguments);
-    }
+    static test::ProcessResult call(const std::vector<std::string>& arguments) { return test::runLoaded(arguments); }
     nlohmann::json runOf(const std::string& project) const {
         return nlohmann::json::parse(call({"info", at(project), "--json"}).output)["runs"][0];
     }

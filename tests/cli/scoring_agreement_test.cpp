@@ -8,10 +8,9 @@
 #include <regex>
 #include <sstream>
 
+#include "cli/loaded_program.h"
 #include "diagnosis/run_evaluation.h"
 #include "support/moving_scene.h"
-#include "support/places.h"
-#include "support/process.h"
 #include "support/temporary_folder.h"
 
 namespace eyrie::scoring_agreement_test {
@@ -86,9 +85,8 @@ class ScoringAgreement : public testing::TestWithParam<std::tuple<std::string, b
     std::string at(const std::string& name) const { return (folder / name).string(); }
     /// What the command prints.
     std::string call(std::vector<std::string> arguments, const std::vector<std::string>& more = {}) const {
-        arguments.insert(arguments.begin(), test::programPath("eyrie-cli"));
         arguments.insert(arguments.end(), more.begin(), more.end());
-        const auto result = test::runProcess(arguments);
+        const auto result = test::runLoaded(arguments);
         EXPECT_EQ(result.exit_code, 0) << arguments[1] << ": " << result.errors;
         return result.output;
     }
@@ -113,6 +111,8 @@ class ScoringAgreement : public testing::TestWithParam<std::tuple<std::string, b
                                                         detections() ? "off" : "on",
                                                         "--set",
                                                         "gradient.quantile=0.3",
+                                                        "--set",
+                                                        "view.oblique=false",
                                                         "--project",
                                                         at("p.eyrie"),
                                                         "--quiet",

@@ -7,6 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
+#include "cli/loaded_program.h"
 #include "store/project/project_file.h"
 #include "store/sweeps/sweep_store.h"
 #include "support/moving_scene.h"
@@ -52,14 +53,14 @@ class Sweep : public testing::Test {
  protected:
     std::string at(const std::string& name) const { return (folder / name).string(); }
     static std::string in(const std::string& name) { return (clip() / name).string(); }
-    static test::ProcessResult cli(std::vector<std::string> arguments) {
-        arguments.insert(arguments.begin(), test::programPath("eyrie-cli"));
-        return test::runProcess(arguments);
-    }
+    static test::ProcessResult cli(const std::vector<std::string>& arguments) { return test::runLoaded(arguments); }
     static std::vector<std::string> command(const std::vector<std::string>& more) {
-        std::vector<std::string> arguments{
-            "sweep", "--sequence", in("clip"), "--ground-truth", in("truth.csv"),
-            "--gsd", "0.2",        "--quiet",  "--set",          "detection.method=gradient"};
+        std::vector<std::string> arguments{"sweep",         "--sequence",
+                                           in("clip"),      "--ground-truth",
+                                           in("truth.csv"), "--gsd",
+                                           "0.2",           "--quiet",
+                                           "--set",         "detection.method=gradient",
+                                           "--set",         "view.oblique=false"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         return arguments;
     }
@@ -82,10 +83,11 @@ TEST_F(Sweep, GivesTheFiguresOfRunAndEvaluate) {
     for (const auto& point : json["points"]) {
         const std::string quantile = point["values"]["gradient.quantile"];
         const std::string project = at("run" + quantile + ".eyrie");
-        ASSERT_EQ(cli({"run", in("clip"), "--project", project, "--gsd", "0.2", "--quiet", "--set",
-                       "detection.method=gradient", "--set", "gradient.quantile=" + quantile})
-                      .exit_code,
-                  0);
+        ASSERT_EQ(
+            cli({"run", in("clip"), "--project", project, "--gsd", "0.2", "--quiet", "--set",
+                 "detection.method=gradient", "--set", "view.oblique=false", "--set", "gradient.quantile=" + quantile})
+                .exit_code,
+            0);
         for (const auto& figures : point["figures"]) {
             std::vector<std::string> arguments{"evaluate",
                                                "--project",
@@ -126,7 +128,10 @@ TEST_F(Sweep, PrintsACurveAndATableAndWritesCsvAndPreset) {
 }
 
 TEST_F(Sweep, UsesTheMotionVectorsOfAProject) {
-    ASSERT_EQ(cli({"run", in("clip"), "--project", at("p.eyrie"), "--gsd", "0.2", "--quiet"}).exit_code, 0);
+    ASSERT_EQ(
+        cli({"run", in("clip"), "--project", at("p.eyrie"), "--gsd", "0.2", "--quiet", "--set", "view.oblique=false"})
+            .exit_code,
+        0);
     const auto result = cli({"sweep", "--project", at("p.eyrie"), "--ground-truth", in("truth.csv"), "--parameter",
                              "detection.method=gradient,clusters", "--quiet", "--json"});
     ASSERT_EQ(result.exit_code, 0) << result.errors;
@@ -271,7 +276,7 @@ TEST_F(Sweep, OnlyOneProgramWorksOnASweep) {
 TEST_F(Sweep, SeveralRunsOfAProjectAreSweptTogether) {
     for (const char* overlap : {"0.2", "0.4"})
         ASSERT_EQ(cli({"run", in("clip"), "--project", at("p.eyrie"), "--gsd", "0.2", "--quiet", "--set",
-                       std::string("tracking.min_overlap=") + overlap})
+                       "view.oblique=false", "--set", std::string("tracking.min_overlap=") + overlap})
                       .exit_code,
                   0);
     const auto result =

@@ -6,9 +6,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "cli/loaded_program.h"
 #include "learning/drawn_windows.h"
-#include "support/places.h"
-#include "support/process.h"
 #include "support/temporary_folder.h"
 
 namespace eyrie::train_test {
@@ -16,9 +15,8 @@ namespace {
 
 using testing::HasSubstr;
 
-test::ProcessResult cli(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), test::programPath("eyrie-cli"));
-    return test::runProcess(arguments);
+test::ProcessResult cli(const std::vector<std::string>& arguments) {
+    return test::runLoaded(arguments);
 }
 
 class TrainCommand : public testing::Test {

@@ -20,21 +20,31 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::StartsWith;
 
+/// A clip and the project of a run over it, made once for all tests.
+struct MadeRun {
+    MadeRun() {
+        test::MovingScene scene;
+        scene.frames = 30;
+        fs::create_directories(folder / "clip");
+        for (int i = 0; i < scene.frames; ++i)
+            cv::imwrite((folder / "clip" / (std::to_string(1000 + i) + ".png")).string(), scene.draw(i));
+        EXPECT_EQ(
+            test::runProcess({test::programPath("eyrie-cli"), "run", (folder / "clip").string(), "--gsd", "0.2",
+                              "--set", "view.oblique=false", "--project", (folder / "p.eyrie").string(), "--quiet"})
+                .exit_code,
+            0);
+    }
+    const test::TemporaryFolder folder;
+};
+
 /// The command line has the window's program print, without a screen.
 class ReportPdf : public testing::Test {
  protected:
     ReportPdf() {
         for (const char* place : {"HOME", "XDG_DATA_HOME", "XDG_CONFIG_HOME", "XDG_CACHE_HOME", "XDG_RUNTIME_DIR"})
             setenv(place, folder_.path().c_str(), 1);
-        test::MovingScene scene;
-        scene.frames = 30;
-        fs::create_directories(folder_ / "clip");
-        for (int i = 0; i < scene.frames; ++i)
-            cv::imwrite((folder_ / "clip" / (std::to_string(1000 + i) + ".png")).string(), scene.draw(i));
-        EXPECT_EQ(test::runProcess({test::programPath("eyrie-cli"), "run", at("clip"), "--gsd", "0.2", "--project",
-                                    at("p.eyrie"), "--quiet"})
-                      .exit_code,
-                  0);
+        static const MadeRun made;
+        fs::copy_file(made.folder / "p.eyrie", folder_ / "p.eyrie");
     }
     std::string at(const std::string& name) const { return (folder_ / name).string(); }
     test::ProcessResult report(const std::string& out, const std::vector<std::string>& further = {},

@@ -13,7 +13,7 @@ namespace {
 /// A run over a small scene, kept in memory, and what a run with other parameters finds.
 class Fixture {
  public:
-    Fixture() : source_(scene_), scale_(sceneScale(source_.info(), 0.2)), stored_(runWith({})) {}
+    Fixture() : source_(scene_), scale_(sceneScale(source_.info(), 0.2)), stored_(storedRun(*this)) {}
 
     std::vector<FrameResult> runWith(const ChainOptions& options) {
         Chain chain(options, scale_);
@@ -38,10 +38,15 @@ class Fixture {
     int frames_read = 0;
 
  private:
+    /// Made once for all tests.
+    static const std::vector<FrameResult>& storedRun(Fixture& any) {
+        static const std::vector<FrameResult> results = any.runWith({});
+        return results;
+    }
     test::MovingScene scene_;
     test::MemorySource source_;
     SceneScale scale_;
-    std::vector<FrameResult> stored_;
+    const std::vector<FrameResult>& stored_;
 };
 
 void expectSame(const FrameResult& a, const FrameResult& b) {

@@ -15,7 +15,8 @@ class RangeRun : public testing::Test {
  protected:
     void SetUp() override {
         scale_ = sceneScale(source_.info(), 0.2);
-        stored_ = runWith({});
+        static const std::vector<FrameResult> made_once = runWith({});
+        stored_ = made_once;
     }
 
     /// What a whole run finds, its tracks finished.

@@ -1,7 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <set>
+#include <map>
+#include <string>
 
 #include "core/geometry/angle.h"
 #include "core/geometry/homography.h"
@@ -12,6 +13,13 @@
 /// What the scenes of the open world promise, without painting a pixel.
 namespace eyrie::world_presets_test {
 namespace {
+
+/// Built once: growing a town and its traffic takes longer than looking at them.
+const SceneDescription& world(const std::string& name) {
+    static std::map<std::string, SceneDescription> built;
+    const auto at = built.find(name);
+    return at != built.end() ? at->second : built.emplace(name, scenePreset(name, 3)).first->second;
+}
 
 std::vector<SceneObject> counted(const SceneDescription& scene, FrameIndex frame) {
     const std::vector<StandingThing> nothing;
@@ -60,7 +68,7 @@ double tallest(const SceneDescription& scene) {
 
 TEST(WorldPreset, flightsPassTallHousesAlongAStreet) {
     for (const char* name : {"road_flight", "road_flight_haze", "road_flight_dusk", "road_flight_night"}) {
-        const SceneDescription scene = scenePreset(name, 3);
+        const SceneDescription& scene = world(name);
         for (const int frame : {0, 75, 149}) {
             EXPECT_GT(scene.camera.at(frame).position.z, 58) << name;
             EXPECT_LT(scene.camera.at(frame).position.z, 92) << name;
@@ -75,19 +83,19 @@ TEST(WorldPreset, flightsPassTallHousesAlongAStreet) {
 }
 
 TEST(WorldPreset, flightsDifferInLightAlone) {
-    const SceneDescription day = scenePreset("road_flight", 4);
-    const SceneDescription night = scenePreset("road_flight_night", 4);
+    const SceneDescription& day = world("road_flight");
+    const SceneDescription& night = world("road_flight_night");
     ASSERT_EQ(day.objects.size(), night.objects.size());
     EXPECT_EQ(day.objects.front().poses.front().position, night.objects.front().poses.front().position);
     EXPECT_EQ(day.buildings.size(), night.buildings.size());
     EXPECT_FALSE(day.night.lamps);
     EXPECT_TRUE(night.night.lamps);
     EXPECT_LT(night.sun.ambient, 0.3 * day.sun.ambient);
-    EXPECT_LT(scenePreset("road_flight_haze", 4).sight_m, 0.3 * day.sight_m);
+    EXPECT_LT(world("road_flight_haze").sight_m, 0.3 * day.sight_m);
 }
 
 TEST(WorldPreset, anEstateIsAllHousesAndHardlyAVehicleDrives) {
-    const SceneDescription scene = scenePreset("estate", 3);
+    const SceneDescription& scene = world("estate");
     EXPECT_GT(scene.buildings.size(), 100U);
     EXPECT_GT(scene.parked.size(), 40U);
     for (const int frame : {10, 80, 140}) EXPECT_LE(counted(scene, frame).size(), 6U);
@@ -95,7 +103,7 @@ TEST(WorldPreset, anEstateIsAllHousesAndHardlyAVehicleDrives) {
 }
 
 TEST(WorldPreset, anOrbitTurnsRoundABuildingAndNothingMoves) {
-    const SceneDescription scene = scenePreset("orbit", 3);
+    const SceneDescription& scene = world("orbit");
     EXPECT_TRUE(scene.objects.empty());
     const cv::Point3d from = scene.camera.at(0).position;
     const cv::Point3d to = scene.camera.at(119).position;
@@ -105,7 +113,7 @@ TEST(WorldPreset, anOrbitTurnsRoundABuildingAndNothingMoves) {
 }
 
 TEST(WorldPreset, aCityFromHighHasTinyVehiclesAndHundredsParked) {
-    const SceneDescription scene = scenePreset("city_high", 3);
+    const SceneDescription& scene = world("city_high");
     EXPECT_EQ(scene.image_size, cv::Size(1920, 1080));
     EXPECT_GT(scene.parked.size(), 400U);
     const std::vector<SceneObject> objects = counted(scene, 40);
@@ -122,7 +130,7 @@ TEST(WorldPreset, aCityFromHighHasTinyVehiclesAndHundredsParked) {
 }
 
 TEST(WorldPreset, aThermalCameraSeesWarmAndColdVehicles) {
-    const SceneDescription scene = scenePreset("thermal", 3);
+    const SceneDescription& scene = world("thermal");
     EXPECT_TRUE(scene.sensor.gray);
     EXPECT_GT(scene.sensor.fixed_pattern, 0);
     EXPECT_LT(scene.sensor.contrast, 0.5);
@@ -136,7 +144,7 @@ TEST(WorldPreset, aThermalCameraSeesWarmAndColdVehicles) {
 }
 
 TEST(WorldPreset, twoPicturesASecondLieATenthOfTheWidthApart) {
-    const SceneDescription scene = scenePreset("low_rate", 3);
+    const SceneDescription& scene = world("low_rate");
     EXPECT_EQ(scene.frame_rate_hz, 2);
     for (const int frame : {1, 14, 27}) {
         EXPECT_NEAR(shiftPerFrame(scene, frame) / scene.image_size.width, 0.1, 0.02) << frame;

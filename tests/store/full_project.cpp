@@ -12,10 +12,12 @@
 #include "store/samples.h"
 #include "store/sweeps/comparison_store.h"
 #include "store/sweeps/sweep_store.h"
+#include "support/temporary_folder.h"
 
 namespace eyrie::test {
+namespace {
 
-void writeFullProject(const std::filesystem::path& path) {
+void makeFullProject(const std::filesystem::path& path) {
     writeSampleProject(path, kFullFrames, {400, 100, 6, 7, 5, {768, 576}});
     writeSampleProject(path, 10);
     ProjectFile project = ProjectFile::open(path);
@@ -39,6 +41,17 @@ void writeFullProject(const std::filesystem::path& path) {
     const int sweep = sweeps.add("quantile", 3, R"({"axes": []})");
     for (int i = 0; i < 3; ++i) sweeps.addPoint(sweep, {i, 1.5, R"({"f": 0.9})"});
     addComparison(project, "/videos/street.mp4", R"({"methods": []})");
+}
+
+}  // namespace
+
+void writeFullProject(const std::filesystem::path& path) {
+    static const std::string made = [] {
+        const TemporaryFolder folder;
+        makeFullProject(folder / "made.eyrie");
+        return bytesOf(folder / "made.eyrie");
+    }();
+    writeBytes(path, made);
 }
 
 std::string bytesOf(const std::filesystem::path& path) {

@@ -13,7 +13,7 @@ inline constexpr int kFullZones = 4;
 inline constexpr int kFullCorrections = 3;
 
 /// Two runs, labels with steps of work, verdicts, zones, corrections, presets, a sweep and a comparison; one file,
-/// without a log.
+/// without a log. Made once in a program, and the same to the last bit each time.
 void writeFullProject(const std::filesystem::path& path);
 
 /// All bytes, of files that no connection has open.

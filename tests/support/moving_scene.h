@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 #include <vector>
@@ -98,8 +99,13 @@ class MemorySource : public FrameSource {
         info_.frame_count = frames;
         info_.codec = "memory";
     }
+    /// Draws each frame once.
     explicit MemorySource(const MovingScene& scene)
-        : MemorySource(scene.frames, scene.size, [scene](int index) { return scene.draw(index); }) {}
+        : MemorySource(scene.frames, scene.size, [scene, drawn = std::map<int, cv::Mat>()](int index) mutable {
+              cv::Mat& picture = drawn[index];
+              if (picture.empty()) picture = scene.draw(index);
+              return picture.clone();
+          }) {}
 
     const VideoInfo& info() const override { return info_; }
     std::int64_t timeOf(FrameIndex index) const override { return index * 40000LL; }

@@ -65,8 +65,8 @@ TEST_F(LiveStreams, FramesComeInOrderAndAreThoseOfTheRecording) {
 
 TEST_F(LiveStreams, AfterAStallItIsConnectedToAgainAndTheRecordingGoesOn) {
     LiveOptions patient = options();
-    patient.give_up_s = 6;
-    const LiveSender sender(port_, {{film("a.ts", 40), 1, 0.3}, {film("b.ts", 40, 500), 1, 2}});
+    patient.give_up_s = 4;
+    const LiveSender sender(port_, {{film("a.ts", 40), 1, 0.3}, {film("b.ts", 40, 500), 1, 1.5}});
     LiveStream stream(address(), patient, {});
     const std::vector<int> numbers = test::numbersOf(stream);
     const LiveFacts facts = stream.facts();

@@ -32,6 +32,7 @@ class Labelling {
         auto window = std::make_unique<MainWindow>();
         window->show();
         if (with_run) {
+            window->session().settings().options.view.oblique = false;
             QSignalSpy finished(&window->session(), &ProjectSession::runFinished);
             StartOptions options;
             options.input = folder;

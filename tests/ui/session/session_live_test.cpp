@@ -18,6 +18,11 @@ class SessionLiveTest : public QObject {
 
     std::unique_ptr<test::OwnHome> home_;
 
+    /// Nobody looks first for how the scale changes over the picture, for which more than a second has to come.
+    static void watch(ProjectSession& session, const test::LiveSource& source) {
+        session.settings().options.view.oblique = false;
+        session.watchLive(source.request);
+    }
     static bool showsFrames(const ProjectSession& session, int frames) {
         return QTest::qWaitFor(
             [&] {
@@ -52,11 +57,11 @@ class SessionLiveTest : public QObject {
         QVERIFY(openAndWait(session, test::sceneUnderTest(10)));
         QSignalSpy lengths(&session, &ProjectSession::changed);
         QSignalSpy finished(&session, &ProjectSession::runFinished);
-        session.watchLive(source.request);
+        watch(session, source);
         QVERIFY(session.running());
         QVERIFY(session.liveSource() != nullptr);
         QVERIFY2(!session.liveStatus(), "nobody has answered yet");
-        const LiveSender sender(source.port, {{test::writeFilm(*home_ / "film.ts", 90), 3, 0.3}});
+        const LiveSender sender(source.port, {{test::writeFilm(*home_ / "film.ts", 60), 2, 0.3}});
         QVERIFY(showsFrames(session, 20));
         QVERIFY(session.following());
         QCOMPARE(session.project(), source.request.project);
@@ -85,7 +90,7 @@ class SessionLiveTest : public QObject {
         const test::LiveSource source(*home_ / "");
         ProjectSession session;
         QSignalSpy finished(&session, &ProjectSession::runFinished);
-        session.watchLive(source.request);
+        watch(session, source);
         const LiveSender sender(source.port, {{test::writeFilm(*home_ / "film.ts", 300), 12, 0.3}});
         QVERIFY(showsFrames(session, 20));
         session.stopRun();
@@ -101,7 +106,7 @@ class SessionLiveTest : public QObject {
     void whatCameCanBeLookedAtWhileMoreComes() {
         const test::LiveSource source(*home_ / "");
         ProjectSession session;
-        session.watchLive(source.request);
+        watch(session, source);
         const LiveSender sender(source.port, {{test::writeFilm(*home_ / "film.ts", 300), 12, 0.3}});
         QVERIFY(showsFrames(session, 40));
         session.goToFrame(4);
@@ -123,7 +128,7 @@ class SessionLiveTest : public QObject {
         const fs::path project = session.project();
         QSignalSpy refused(&session, &ProjectSession::liveRefused);
         QSignalSpy problems(&session, &ProjectSession::problem);
-        session.watchLive(source.request);
+        watch(session, source);
         QVERIFY(refused.wait(kPatience_ms));
         QVERIFY(refused.at(0).at(0).toString().contains(QStringLiteral("check the address")));
         QCOMPARE(problems.count(), 0);
@@ -140,7 +145,7 @@ class SessionLiveTest : public QObject {
         ProjectSession session;
         QSignalSpy refused(&session, &ProjectSession::liveRefused);
         QSignalSpy finished(&session, &ProjectSession::runFinished);
-        session.watchLive(source.request);
+        watch(session, source);
         session.stopRun();
         QVERIFY(finished.wait(kPatience_ms));
         QCOMPARE(finished.at(0).at(0).value<RunSummary>().outcome, RunOutcome::stopped);
@@ -153,7 +158,7 @@ class SessionLiveTest : public QObject {
         source.request.project = *home_ / "absent" / "live.eyrie";
         ProjectSession session;
         QSignalSpy refused(&session, &ProjectSession::liveRefused);
-        session.watchLive(source.request);
+        watch(session, source);
         QVERIFY(refused.wait(kPatience_ms));
         QVERIFY(refused.at(0).at(0).toString().contains(QStringLiteral("does not exist; make it first")));
     }
@@ -164,7 +169,7 @@ class SessionLiveTest : public QObject {
         const auto size = fs::file_size(*home_ / "mine.ts");
         ProjectSession session;
         QSignalSpy refused(&session, &ProjectSession::liveRefused);
-        session.watchLive(source.request);
+        watch(session, source);
         QVERIFY(refused.wait(kPatience_ms));
         QVERIFY(refused.at(0).at(0).toString().contains(QStringLiteral("exists already")));
         QCOMPARE(fs::file_size(*home_ / "mine.ts"), size);
@@ -173,7 +178,7 @@ class SessionLiveTest : public QObject {
     void anotherPictureSizeEndsItAndSaysSo() {
         const test::LiveSource source(*home_ / "");
         ProjectSession session;
-        session.watchLive(source.request);
+        watch(session, source);
         const LiveSender sender(source.port, {{test::writeFilm(*home_ / "a.ts", 40), 1.5, 0.3},
                                               {test::writeFilm(*home_ / "b.ts", 40, {320, 200}), 1.5, 0}});
         QVERIFY(showsFrames(session, 10));
@@ -186,7 +191,7 @@ class SessionLiveTest : public QObject {
         ProjectSession session;
         QSignalSpy problems(&session, &ProjectSession::problem);
         QSignalSpy finished(&session, &ProjectSession::runFinished);
-        session.watchLive(source.request);
+        watch(session, source);
         const LiveSender sender(source.port, {{test::writeFilm(*home_ / "film.ts", 300), 12, 0.3}});
         QVERIFY(showsFrames(session, 20));
         const int shown = session.viewFrame().index;
@@ -205,7 +210,7 @@ class SessionLiveTest : public QObject {
         const fs::path film = test::writeFilm(*home_ / "film.ts", 300);
         {
             ProjectSession session;
-            session.watchLive(source.request);
+            watch(session, source);
             const LiveSender sender(source.port, {{film, 12, 0.3}});
             QVERIFY(showsFrames(session, 20));
         }
@@ -219,7 +224,7 @@ class SessionLiveTest : public QObject {
     void anotherVideoEndsIt() {
         const test::LiveSource source(*home_ / "");
         ProjectSession session;
-        session.watchLive(source.request);
+        watch(session, source);
         const LiveSender sender(source.port, {{test::writeFilm(*home_ / "film.ts", 300), 12, 0.3}});
         QVERIFY(showsFrames(session, 10));
         QVERIFY(openAndWait(session, test::sceneUnderTest(10)));

@@ -44,8 +44,10 @@ inline bool openAndWait(ProjectSession& session, const Media& media) {
     return ready.wait(kPatience_ms);
 }
 
-/// Answers whether a run was made and ended in time.
+/// Answers whether a run was made and ended in time. Nobody looks first for how the scale changes over the picture,
+/// which takes as long as such a run.
 inline bool runAndWait(ProjectSession& session) {
+    session.settings().options.view.oblique = false;
     QSignalSpy finished(&session, &ProjectSession::runFinished);
     session.startRun();
     return session.running() && finished.wait(kPatience_ms);

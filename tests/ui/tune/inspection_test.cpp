@@ -64,6 +64,7 @@ class InspectionTest : public QObject {
         session->openMedia(test::sceneUnderTest(60));
         if (!ready.wait(kPatience_ms)) return nullptr;
         session->settings().options = options;
+        session->settings().options.view.oblique = false;
         session->settings().gsd_m_per_px = 0.25;
         QSignalSpy finished(session.get(), &ProjectSession::runFinished);
         session->startRun();
@@ -208,6 +209,7 @@ class InspectionTest : public QObject {
         session.open(folder);
         QVERIFY(ready.wait(kPatience_ms));
         session.settings().gsd_m_per_px = 0.25;
+        session.settings().options.view.oblique = false;
         QSignalSpy finished(&session, &ProjectSession::runFinished);
         session.startRun();
         QVERIFY(finished.wait(kPatience_ms));

@@ -76,6 +76,7 @@ class SweepPanelTest : public QObject {
         auto window = std::make_unique<MainWindow>();
         window->show();
         window->session().settings().options.detection.method = DetectionMethod::gradient;
+        window->session().settings().options.view.oblique = false;
         QSignalSpy finished(&window->session(), &ProjectSession::runFinished);
         StartOptions options;
         options.input = folder;
@@ -214,7 +215,7 @@ class SweepPanelTest : public QObject {
     }
 
     void aCancelledOrClosedSweepIsResumed() {
-        const std::string axis = "gradient.quantile=0.02:0.002:0.98";
+        const std::string axis = "gradient.quantile=0.02:0.008:0.98";
         std::filesystem::path project;
         std::size_t before = 0;
         {
@@ -227,7 +228,7 @@ class SweepPanelTest : public QObject {
             panel.sweeps().cancel();
             QVERIFY(waitFor([&] { return !panel.sweeps().running(); }));
             before = pointsOf(panel);
-            QVERIFY(before < 481);
+            QVERIFY(before < 121);
             panel.sweeps().resume(panel.sweeps().table()->id);
             QVERIFY(waitFor([&] { return pointsOf(panel) > before; }));
             before = pointsOf(panel);
@@ -238,13 +239,13 @@ class SweepPanelTest : public QObject {
         QVERIFY(runIsRead(window));
         SweepPanel& panel = window.review().sweeps();
         QVERIFY(waitFor([&] { return pointsOf(panel) >= before; }));
-        QVERIFY(pointsOf(panel) < 481);
+        QVERIFY(pointsOf(panel) < 121);
         QCOMPARE(panel.sweeps().sweeps().size(), std::size_t(1));
         QSignalSpy finished(&panel.sweeps(), &SweepSession::finished);
         panel.sweeps().resume(panel.sweeps().sweeps().front().id);
         QVERIFY(waitFor([&] { return !finished.isEmpty(); }));
         QVERIFY(finished.first().first().toBool());
-        QCOMPARE(pointsOf(panel), std::size_t(481));
+        QCOMPARE(pointsOf(panel), std::size_t(121));
     }
 
     void severalRunsAreSweptOverTogether() {
@@ -316,7 +317,7 @@ class SweepPanelTest : public QObject {
         rlimit before{};
         getrlimit(RLIMIT_FSIZE, &before);
         rlimit small = before;
-        sweeps.start(request({"gradient.quantile=0.02:0.002:0.98"}));
+        sweeps.start(request({"gradient.quantile=0.02:0.008:0.98"}));
         QVERIFY(waitFor([&] { return pointsOf(panel) > 2; }));
         std::error_code none;  // no file grows much beyond that of the journal
         const auto journal = std::filesystem::file_size(window->session().project().string() + "-wal", none);
@@ -329,12 +330,12 @@ class SweepPanelTest : public QObject {
         const QString text = failed.first().first().toString();
         QVERIFY2(text.contains(QStringLiteral("storing point")), qPrintable(text));
         const std::size_t kept = pointsOf(panel);
-        QVERIFY(kept > 0 && kept < 481);
+        QVERIFY(kept > 0 && kept < 121);
         QSignalSpy finished(&sweeps, &SweepSession::finished);
         sweeps.resume(sweeps.table()->id);
         QVERIFY(waitFor([&] { return !sweeps.running(); }));
         QVERIFY(finished.size() == 1 && finished.first().first().toBool());
-        QCOMPARE(pointsOf(panel), std::size_t(481));
+        QCOMPARE(pointsOf(panel), std::size_t(121));
     }
 
     void aModelOfAnotherDescriptorAndATruthOfOtherFramesAreNamed() {

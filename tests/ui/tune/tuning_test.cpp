@@ -50,6 +50,7 @@ class TuningTest : public QObject {
         session().openMedia(test::sceneUnderTest(60));
         if (!ready.wait(kPatience_ms)) return false;
         session().settings().gsd_m_per_px = 0.25;
+        session().settings().options.view.oblique = false;
         QSignalSpy finished(&session(), &ProjectSession::runFinished);
         session().startRun();
         if (!finished.wait(kPatience_ms)) return false;

@@ -48,6 +48,7 @@ class LiveWindowTest : public QObject {
     static LiveDialog* askIn(MainWindow& window) {
         window.resize(1280, 720);
         window.show();
+        window.session().settings().options.view.oblique = false;
         window.actions().watch_live->trigger();
         return window.live().dialog();
     }

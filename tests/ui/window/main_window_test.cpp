@@ -57,6 +57,7 @@ class MainWindowTest : public QObject {
         auto window = std::make_unique<MainWindow>();
         window->show();
         window->session().settings().options = chain;
+        window->session().settings().options.view.oblique = false;
         QSignalSpy finished(&window->session(), &ProjectSession::runFinished);
         StartOptions options;
         options.input = folder;

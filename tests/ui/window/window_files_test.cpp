@@ -58,6 +58,7 @@ class WindowFilesTest : public QObject {
     /// The run that starting with a folder of images makes.
     static bool runs(MainWindow& window, const std::filesystem::path& folder) {
         QSignalSpy finished(&window.session(), &ProjectSession::runFinished);
+        window.session().settings().options.view.oblique = false;
         return open(window, folder, 0.25) && finished.wait(kPatience_ms);
     }
     static QLineEdit& gsd(MainWindow& window) { return *window.findChild<QLineEdit*>(QStringLiteral("gsd")); }

@@ -275,6 +275,7 @@ class WorkspacesTest : public QObject {
             const auto window = this->window(first);
             QVERIFY(window);
             window->session().settings().options.detection.method = DetectionMethod::gradient;
+            window->session().settings().options.view.oblique = false;
             StartOptions options;
             options.input = test::writeScene(*home_ / "images", 60);
             options.gsd_m_per_px = 0.25;

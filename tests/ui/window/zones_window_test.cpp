@@ -215,7 +215,7 @@ class ZonesWindowTest : public QObject {
         press(Qt::Key_Return);
         press(Qt::Key_Backspace);
         QCOMPARE(window->events().zones().tool().points().size(), std::size_t(1));
-        for (int i = 0; i < 5; ++i) key(Qt::Key_Right, Qt::ShiftModifier);
+        for (int i = 0; i < 5; ++i) press(Qt::Key_Right, Qt::ShiftModifier);
         press(Qt::Key_Return);
         QVERIFY(window->events().zones().tool().drawing());
         press(Qt::Key_Return);  // again in the same place: done
