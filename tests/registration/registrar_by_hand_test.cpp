@@ -60,6 +60,28 @@ TEST(RegistrarByHand, AfterAFrozenFrameACameraMayHaveGoneOnAsFarAsItWouldHave) {
     EXPECT_LT(gridError(blank.registration.current_from_previous.matrix, step, size), 0.3);
 }
 
+/// What a camera is expected to do through a freeze has an end: 40 steps of 7 px would lead out of the picture.
+TEST(RegistrarByHand, ThroughALongFreezeACameraIsExpectedToGoOnForTwentyFrames) {
+    const cv::Size size(320, 160);
+    const cv::Matx33d step = shift(7, 0);
+    Watch watch(withoutFeatures());
+    Flight flight(size);
+    watch.see(flight);
+    for (int i = 0; i < 2; ++i) {
+        flight.move(step);
+        ASSERT_EQ(watch.see(flight).registration.state, RegistrationState::registered);
+    }
+    flight.move(step);
+    const cv::Mat gray = flight.picture();
+    ASSERT_EQ(watch.seePicture(gray).registration.state, RegistrationState::registered);
+    for (int i = 0; i < 40; ++i)
+        ASSERT_EQ(watch.seePicture(gray.clone()).registration.state, RegistrationState::frozen);
+    for (int i = 0; i < 21; ++i) flight.move(step);
+    const RegisteredFrame after = watch.see(flight);
+    ASSERT_EQ(after.registration.state, RegistrationState::registered);
+    EXPECT_LT(gridError(after.registration.current_from_previous.matrix, shift(21 * 7, 0), size), 0.5);
+}
+
 TEST(RegistrarByHand, OfAsManyCornersAsAreNeededSomeAreLost) {
     Watch first;
     Flight flight(kSmall);
