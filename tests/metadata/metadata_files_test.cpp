@@ -183,6 +183,26 @@ TEST(MetadataFiles, aRawDumpIsReadInPiecesOfAnySize) {
     EXPECT_FALSE(isRawKlv(folder / "text.klv"));
 }
 
+TEST(MetadataFiles, aRawDumpMayBeCutAnywhereWithinASet) {
+    // Sets of 119 bytes behind one that shifts them: with 62 letters, a key lies 5 bytes behind the first 64 kilobytes,
+    // which looks like a packet with the header of an access unit cell.
+    const test::TemporaryFolder folder;
+    constexpr int kSets = 600;
+    for (const std::size_t letters : {57, 60, 62, 64, 80}) {
+        std::ofstream file(folder / "dump.klv", std::ios::binary);
+        for (int i = 0; i < kSets; ++i) {
+            const test::KlvBytes text(i == 0 ? letters : 90, 'x');
+            const auto set = LocalSetWriter().item(3, text).angle(13, 45, 90).bytes();
+            ASSERT_EQ(set.size(), 29 + text.size());
+            file.write(reinterpret_cast<const char*>(set.data()), static_cast<std::streamsize>(set.size()));
+        }
+        file.close();
+        const MetadataRecording recording = readMetadata(folder / "dump.klv");
+        EXPECT_EQ(recording.streams.at(0).packets.size(), std::size_t{kSets}) << letters;
+        EXPECT_EQ(recording.streams.at(0).damaged(), 0) << letters;
+    }
+}
+
 TEST(MetadataFiles, videosWithoutMetadataHaveNone) {
     EYRIE_NEED_SHARED_DATA("klv");
     for (const char* name : {"h264_no_klv.ts", "h264_audio.ts"}) {
