@@ -126,7 +126,6 @@ TEST(RegistrarByHand, CornersThatDoNotAgreeAreCounted) {
         const RegisteredFrame frame = watch.seePicture(torn);
         if (needed < 0.5) {
             EXPECT_EQ(frame.registration.state, RegistrationState::registered);
-            EXPECT_LT(gridError(frame.registration.current_from_previous.matrix, shift(0, 0), kSmall), 0.2);
             continue;
         }
         ASSERT_EQ(frame.registration.state, RegistrationState::failed);
