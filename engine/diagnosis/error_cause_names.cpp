@@ -62,7 +62,7 @@ const char* explanationOf(ErrorCause cause) {
         case ErrorCause::removed_duplicate:
             return "It was detected, but fused into another detection (duplicates.*).";
         case ErrorCause::removed_outlier:
-            return "It was detected, but had too few motion vectors inside (outliers.min_vectors).";
+            return "It was detected, but too few motion vectors belong to it (outliers.min_vectors).";
         case ErrorCause::removed_size:
             return "It was detected, but its size was out of bounds (outliers.min_length and others).";
         case ErrorCause::not_associated:

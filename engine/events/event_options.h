@@ -9,7 +9,7 @@ namespace eyrie {
 struct EventOptions {
     // how motion is measured
     double smooth_s = 1.0;
-    double noise = 0.3;
+    double noise = 0.3;  ///< px
     double standing_speed_kmh = 2.5;
     double moving_speed_kmh = 6;
     double min_standing_s = 1;

@@ -31,6 +31,7 @@ RemovalVerdict judgeSupportAndSize(const Detection& detection, const FrameMotion
     const int needed = vectorsNeeded(motion, options, scale.at(detection.box.centre));
     const auto count = static_cast<int>(detection.vectors.size());
     RemovalVerdict verdict{Rejection::none, parameterOfNeeded(needed, options), 1.0 * count, 1.0 * needed, false};
+    verdict.moving_alike = options.compare_velocity;
     if (count < needed) {
         verdict.rejection = Rejection::outlier;
     } else if (const auto broken = brokenSizeLimit(detection.box, options, scale, motion.image_size)) {

@@ -26,9 +26,10 @@ struct RemovalTrace {
 struct RemovalVerdict {
     Rejection rejection = Rejection::none;
     std::string parameter;  ///< that says the limit; empty where nothing was compared
-    double value = 0;       ///< motion vectors that move with the box; for a size as in BrokenLimit
+    double value = 0;       ///< motion vectors that count for the box; for a size as in BrokenLimit
     double limit = 0;       ///< the same unit
     bool at_most = false;
+    bool moving_alike = false;  ///< only vectors that move with the box count, not all that lie inside
 };
 
 /// A size limit that a box breaks.

@@ -225,7 +225,7 @@ TEST(Explanation, detectionWithTooFewVectorsIsAnOutlier) {
     evidence.result.detections.front().rejection = Rejection::outlier;
     const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
     EXPECT_EQ(told.sentence,
-              "The detection here was removed as an outlier: 2 motion vectors inside, 3 are needed: "
+              "The detection here was removed as an outlier: 2 motion vectors move with the box, 3 are needed: "
               "outliers.min_vectors = 3 vectors.");
 }
 

@@ -82,14 +82,15 @@ void LabelSession::rereadReadOnly() {
         ProjectFile project = ProjectFile::open(path, ProjectFile::Mode::read_only);
         task.tell([this, reading = AnnotationStore::readIfChanged(project, sequence_id, known)] { follow(reading); });
     };
+    // What cannot be read now may be the next time: it is tried on.
     const auto failed = [this](const QString& message) {
-        reread_.stop();
-        emit problem(message);
+        if (!std::exchange(reread_fault_told_, true)) emit problem(message);
     };
     labels_query_.ask(work, failed, BackgroundQuery::Former::finish);
 }
 
 void LabelSession::follow(std::optional<AnnotationStore::Reading> reading) {
+    reread_fault_told_ = false;
     if (store_ && reading && store_->follow(std::move(*reading))) wasChanged();
 }
 
@@ -123,6 +124,7 @@ void LabelSession::close() {
     labels_query_.cancel();
     camera_query_.cancel();
     project_path_.clear();
+    reread_fault_told_ = false;
     const bool was_open = store_ != nullptr;
     store_.reset();
     project_.reset();

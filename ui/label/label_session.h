@@ -119,7 +119,8 @@ class LabelSession : public QObject {
     mutable std::optional<std::vector<AttentionItem>> attention_;
     std::optional<ObjectId> selected_;
     std::set<ObjectId> selection_;
-    RepeatedCall reread_;  ///< what another window changes is read now and then
+    RepeatedCall reread_;             ///< what another window changes is read now and then
+    bool reread_fault_told_ = false;  ///< and it could not be read since
     std::string drawn_class_ = "car";
     BackgroundQuery labels_query_;
     BackgroundQuery camera_query_;  ///< last: both stop before the rest goes

@@ -5,7 +5,6 @@
 #include "chain/recording/run_resume.h"
 #include "cli/project_runs.h"
 #include "cli/reports/figure_text.h"
-#include "core/error.h"
 #include "store/details/kept_details.h"
 #include "store/details/recording_options.h"
 
@@ -80,6 +79,17 @@ ResumeChoice chooseRun(const RunStore& store, const std::string& project, const 
                          (usable ? " was started with " + difference : " cannot be resumed: " + textOf(obstacle));
     }
     return choice;
+}
+
+void checkNotBegun(const RunStore& store, const std::string& project, const ResumeWishes& wishes) {
+    const std::optional<RunRecord> begun = chooseRun(store, project, wishes).run;
+    if (!begun) return;
+    if (begun->state == RunState::finished) throw FinishedMeanwhile(*begun, project);
+    const std::string which = "run " + std::to_string(begun->id) + " of " + project + " was begun over this video by ";
+    throw Error(ErrorKind::project,
+                begun->live
+                    ? which + begun->writer + " meanwhile; let it end there, or give the same command again later"
+                    : which + "another program meanwhile and stopped; the same command goes on with it");
 }
 
 void needDetections(ProjectFile& project, const RunRecord& run) {

@@ -31,7 +31,9 @@ std::vector<BatchInput> findInputs(const std::vector<std::string>& places);
 std::vector<BatchInput> findInputs(const std::vector<std::string>& places, KnownFiles& files);
 
 /// The name of an input without its ending, of a folder as it is: "monday/a". Inputs that share it, such as a.mp4 and
-/// a.mov, are one piece of work, so that one batch alone decides which project is whose.
+/// a.mov, are one piece of work, so that one batch alone decides which project is whose. But for one case: beside
+/// a.mov, a.mp4 has the project a.mp4.eyrie, which is that of a.mp4.mov, too. Where they fall to different parts that
+/// begin at the same time, one project may get both videos, each with its run.
 std::filesystem::path nameOfWork(const BatchInput& input);
 
 /// Part `part` (from 1) of `parts`; together they are everything, once.

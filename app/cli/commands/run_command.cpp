@@ -167,12 +167,7 @@ MayAddRun unlessBegunMeanwhile(const RunArguments& arguments, const FrameSource&
                                const std::filesystem::path& project) {
     if (!arguments.resume) return {};
     return [wishes = wishesOf(arguments, &source), project](const RunStore& store) {
-        const std::optional<RunRecord> begun = chooseRun(store, project.string(), wishes).run;
-        if (!begun) return;
-        const std::string by = begun->live ? begun->writer : "another program";
-        throw Error(ErrorKind::project, "run " + std::to_string(begun->id) + " of " + project.string() +
-                                            " was begun over this video by " + by +
-                                            " meanwhile; let it end there, or give the same command again later");
+        checkNotBegun(store, project.string(), wishes);
     };
 }
 
@@ -238,6 +233,20 @@ EndedRun asItIs(const RunArguments& arguments, const RunRecord& run, FrameSource
     console.drawStored(store, run.id, source, {run.first_frame, run.last_frame}, interrupt.token());
     ended.has_video = console.finishVideo(false);
     return ended;
+}
+
+/// A new run, unless another program did it meanwhile.
+EndedRun begin(const RunArguments& arguments, FrameSource& source, const std::filesystem::path& project,
+               const InterruptGuard& interrupt) {
+    try {
+        return runAnew(arguments, source, project, interrupt);
+    } catch (const FinishedMeanwhile& other) {
+        if (!arguments.detections_csv.empty()) {
+            ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
+            needDetections(file, other.run);
+        }
+        return asItIs(arguments, other.run, source, project, interrupt);
+    }
 }
 
 EndedRun goOn(const RunArguments& arguments, const RunRecord& run, FrameSource& source,
@@ -337,7 +346,7 @@ int run(const RunArguments& arguments) {
         source = openInput(choice.run->sequence.path, 0, interrupt.token(), choice.run->scale.frame_rate_hz);
     }
     if (!keepEarlierState(project, interrupt.token())) return exit_stopped;
-    const auto [record, summary, has_video] = !choice.run ? runAnew(arguments, *source, project, interrupt)
+    const auto [record, summary, has_video] = !choice.run ? begin(arguments, *source, project, interrupt)
                                               : choice.run->state == RunState::finished
                                                   ? asItIs(arguments, *choice.run, *source, project, interrupt)
                                                   : goOn(arguments, *choice.run, *source, project, interrupt);

@@ -38,7 +38,7 @@ GradientSegmenter::GradientSegmenter(const GradientOptions& options, const Scene
       lbp_(lbpOf(options)),
       component_boxes_(options, scale),
       quantile_margin_(std::max(1.0, scale.px(options.quantile_margin_m))),
-      cluster_margin_px_(cluster_margin) {}
+      cluster_margin_(cluster_margin) {}
 
 cv::Mat GradientSegmenter::gradientOf(const cv::Mat& gray) const {
     cv::Mat gradient;
@@ -135,7 +135,7 @@ std::vector<Detection> GradientSegmenter::detect(const MotionRoi& roi, Detection
 std::vector<Detection> GradientSegmenter::detectionsOf(const MotionRoi& roi, const std::vector<cv::Rect2d>& boxes,
                                                        DetectionTrace* trace) const {
     if (options_.fall_back && !component_boxes_.explain(boxes, roi.vectors, trace))
-        return clusterDetection(roi, cluster_margin_px_);
+        return clusterDetection(roi, cluster_margin_);
     return detectionsIn(roi, boxes);
 }
 

@@ -35,7 +35,7 @@ class GradientSegmenter : public Detector {
     LbpGradientOptions lbp_;
     ComponentBoxes component_boxes_;
     double quantile_margin_;  ///< px
-    double cluster_margin_px_;
+    double cluster_margin_;
 };
 
 }  // namespace eyrie

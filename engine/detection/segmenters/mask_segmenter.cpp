@@ -52,7 +52,7 @@ double otsuWithin(const cv::Mat& image, const cv::Mat& mask) {
 }
 
 MaskSegmenter::MaskSegmenter(const GradientOptions& components, const SceneScale& scale, double cluster_margin)
-    : components_(withoutReach(components)), component_boxes_(components_, scale), cluster_margin_px_(cluster_margin) {}
+    : components_(withoutReach(components)), component_boxes_(components_, scale), cluster_margin_(cluster_margin) {}
 
 std::vector<cv::Rect2d> MaskSegmenter::segment(const MotionRoi& roi, DetectionTrace* trace) const {
     if (std::min(roi.image.cols, roi.image.rows) < kSmallestMaskSide) return {};
@@ -73,7 +73,7 @@ std::vector<Detection> MaskSegmenter::detect(const MotionRoi& roi, DetectionTrac
     if (roi.image.empty()) return {};
     const std::vector<cv::Rect2d> boxes = segment(roi, trace);
     if (components_.fall_back && !component_boxes_.explain(boxes, roi.vectors, trace))
-        return clusterDetection(roi, cluster_margin_px_);
+        return clusterDetection(roi, cluster_margin_);
     return detectionsIn(roi, boxes);
 }
 

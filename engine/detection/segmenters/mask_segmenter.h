@@ -27,7 +27,7 @@ class MaskSegmenter : public Detector {
 
     GradientOptions components_;
     ComponentBoxes component_boxes_;
-    double cluster_margin_px_;
+    double cluster_margin_;
 };
 
 /// Adds a layer scaled to its largest value, for images whose range says nothing; does nothing without a trace.

@@ -72,7 +72,7 @@ std::vector<cv::Rect2d> boxesOf(const std::vector<WindowHypothesis>& hypotheses)
 
 SlidingWindowDetector::SlidingWindowDetector(VehicleModel model, const SlidingWindowOptions& options,
                                              const SceneScale& scale, double cluster_margin)
-    : scanner_(std::move(model)), options_(options), scale_(scale), cluster_margin_px_(cluster_margin) {}
+    : scanner_(std::move(model)), options_(options), scale_(scale), cluster_margin_(cluster_margin) {}
 
 bool SlidingWindowDetector::accepted(const MotionRoi& roi, const WindowHypothesis& found) const {
     if (!inVideo(roi, found)) return false;
@@ -146,7 +146,7 @@ std::vector<Detection> SlidingWindowDetector::detectionsOf(const MotionRoi& roi,
         detection.cluster = roi.cluster;
         detections.push_back(detection);
     }
-    if (detections.empty() && options_.fall_back) return clusterDetection(roi, cluster_margin_px_);
+    if (detections.empty() && options_.fall_back) return clusterDetection(roi, cluster_margin_);
     return detections;
 }
 

@@ -31,7 +31,7 @@ class SlidingWindowDetector : public Detector {
     WindowScanner scanner_;
     SlidingWindowOptions options_;
     SceneScale scale_;
-    double cluster_margin_px_;
+    double cluster_margin_;
 };
 
 /// Loads the model that the options name. Throws Error(input) when it is missing or damaged.

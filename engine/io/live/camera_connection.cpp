@@ -22,9 +22,10 @@ constexpr int kCameraQuality = 16;
 /// The run is one over the recording, as of every live source: what the chain works on was encoded before, too.
 class CameraConnection : public LiveConnection {
  public:
-    CameraConnection(const std::string& address, const CameraOpener& open, double seconds, std::stop_token stop)
-        : device_(cameraDevice(address)), stop_(std::move(stop)), camera_(device_, open) {
-        picture_ = camera_.next(seconds, stop_);
+    CameraConnection(const std::string& address, const CameraOpener& open, const CameraPatience& patience,
+                     std::stop_token stop)
+        : device_(cameraDevice(address)), stop_(std::move(stop)), camera_(device_, open, patience, stop_) {
+        picture_ = camera_.next(patience.connect_s, stop_);
         if (stop_.stop_requested()) throw Error(ErrorKind::input, device_ + ": stopped while waiting for it");
         if (!picture_)
             throw Error(ErrorKind::input,
@@ -88,9 +89,9 @@ class CameraConnection : public LiveConnection {
 
 }  // namespace
 
-std::unique_ptr<LiveConnection> connectToCamera(const std::string& address, const CameraOpener& open, double seconds,
-                                                const std::stop_token& stop) {
-    return std::make_unique<CameraConnection>(address, open ? open : openCamera, seconds, stop);
+std::unique_ptr<LiveConnection> connectToCamera(const std::string& address, const CameraOpener& open,
+                                                const CameraPatience& patience, const std::stop_token& stop) {
+    return std::make_unique<CameraConnection>(address, open ? open : openCamera, patience, stop);
 }
 
 }  // namespace eyrie

@@ -3,17 +3,29 @@
 #include <condition_variable>
 #include <deque>
 #include <exception>
+#include <filesystem>
+#include <map>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <utility>
+
+#include "core/error.h"
 
 namespace eyrie {
 namespace {
 
-/// In which a camera that works sends its next picture and is closed.
-constexpr std::chrono::milliseconds kTimeToClose{500};
 /// That may wait to be taken; further ones wait in the driver, which leaves out what it has no room for.
 constexpr std::size_t kReadAhead = 2;
+
+using Seconds = std::chrono::duration<double>;
+
+/// The device itself, by whatever link it is named.
+std::string deviceItself(const std::string& device) {
+    std::error_code failed;
+    const std::filesystem::path itself = std::filesystem::canonical(device, failed);
+    return failed ? device : itself.string();
+}
 
 }  // namespace
 
@@ -26,6 +38,10 @@ struct CameraReader::Shared {
     bool unwanted = false;
     bool closed = false;
 
+    bool isClosed() {
+        const std::scoped_lock lock(mutex);
+        return closed;
+    }
     bool isWanted() {
         const std::scoped_lock lock(mutex);
         return !unwanted;
@@ -43,8 +59,10 @@ struct CameraReader::Shared {
 
     void read(const std::string& device, const CameraOpener& open) {
         std::exception_ptr failure;
+        bool opened = false;
         try {
             const std::unique_ptr<CameraDevice> camera = open(device);
+            opened = true;
             for (bool wanted = isWanted(); wanted;) {
                 CameraPicture picture;
                 if (!camera->read(picture.pixels) || picture.pixels.empty()) break;
@@ -55,13 +73,52 @@ struct CameraReader::Shared {
             failure = std::current_exception();
         }
         const std::scoped_lock lock(mutex);  // whoever is told may open the camera again
-        refused = failure;
+        if (!opened) refused = failure;      // one that fails later on may be opened again
         closed = true;
         changed.notify_all();
     }
+
+    /// Takes the place of the former reader of a device as soon as that one has closed it; false at `stop`.
+    static bool takeOver(const std::string& device, const std::shared_ptr<Shared>& mine, double seconds,
+                         const std::stop_token& stop);
 };
 
-CameraReader::CameraReader(const std::string& device, const CameraOpener& open) : shared_(std::make_shared<Shared>()) {
+/// The only state that a whole program shares: a device can be open once, whoever asks, and the thread that still has
+/// it may belong to nobody any more.
+bool CameraReader::Shared::takeOver(const std::string& device, const std::shared_ptr<Shared>& mine, double seconds,
+                                    const std::stop_token& stop) {
+    static std::mutex readers_mutex;
+    static std::map<std::string, std::weak_ptr<Shared>> readers;
+    const std::string itself = deviceItself(device);
+    const auto deadline =
+        std::chrono::steady_clock::now() + std::chrono::ceil<std::chrono::nanoseconds>(Seconds(seconds));
+    while (true) {
+        std::shared_ptr<Shared> former;
+        {
+            const std::scoped_lock lock(readers_mutex);
+            former = readers[itself].lock();
+            // One that has closed it is as good as none; of two who wait, the second waits for the first.
+            if (!former || former->isClosed()) {
+                readers[itself] = mine;
+                return true;
+            }
+        }
+        std::unique_lock lock(former->mutex);
+        if (former->changed.wait_until(lock, stop, deadline, [&] { return former->closed; })) continue;
+        if (stop.stop_requested()) return false;
+        throw Error(ErrorKind::input,
+                    device + (former->unwanted ? ": this camera hangs; disconnect it and connect it again"
+                                               : ": this program uses this camera already; stop watching it first"));
+    }
+}
+
+CameraReader::CameraReader(const std::string& device, const CameraOpener& open, const CameraPatience& patience,
+                           const std::stop_token& stop)
+    : patience_(patience), shared_(std::make_shared<Shared>()) {
+    if (!Shared::takeOver(device, shared_, patience_.connect_s, stop)) {
+        shared_->closed = true;
+        return;
+    }
     std::thread([shared = shared_, device, open] { shared->read(device, open); }).detach();
 }
 
@@ -69,12 +126,12 @@ CameraReader::~CameraReader() {
     std::unique_lock lock(shared_->mutex);
     shared_->unwanted = true;
     shared_->changed.notify_all();
-    shared_->changed.wait_for(lock, kTimeToClose, [&] { return shared_->closed; });
+    shared_->changed.wait_for(lock, Seconds(patience_.close_s), [&] { return shared_->closed; });
 }
 
 std::optional<CameraPicture> CameraReader::next(double seconds, const std::stop_token& stop) {
     std::unique_lock lock(shared_->mutex);
-    shared_->changed.wait_for(lock, stop, std::chrono::duration<double>(seconds),
+    shared_->changed.wait_for(lock, stop, Seconds(seconds),
                               [&] { return shared_->closed || !shared_->pictures.empty(); });
     if (stop.stop_requested()) return std::nullopt;
     if (!shared_->pictures.empty()) {

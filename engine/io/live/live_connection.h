@@ -4,7 +4,7 @@
 #include <stop_token>
 #include <string>
 
-#include "io/live/camera_device.h"
+#include "io/live/camera_reader.h"
 #include "io/video/libav.h"
 
 /// Inside of this room only.
@@ -31,9 +31,9 @@ class LiveConnection {
 
 /// An address of the net. Throws Error(input) when nothing of use comes within `seconds`.
 std::unique_ptr<LiveConnection> connectToNet(const std::string& address, double seconds, const std::stop_token& stop);
-/// A camera, whose pictures are encoded as they come. Throws Error(input) where it sends none within `seconds`, and
-/// what `open` throws. One that hangs is not waited for; `open` must stay of use until then (CameraReader).
-std::unique_ptr<LiveConnection> connectToCamera(const std::string& address, const CameraOpener& open, double seconds,
-                                                const std::stop_token& stop);
+/// A camera, whose pictures are encoded as they come. Throws Error(input) where it sends none in time, and what
+/// `open` and CameraReader throw. One that hangs is not waited for; `open` must stay of use until then (CameraReader).
+std::unique_ptr<LiveConnection> connectToCamera(const std::string& address, const CameraOpener& open,
+                                                const CameraPatience& patience, const std::stop_token& stop);
 
 }  // namespace eyrie

@@ -122,7 +122,8 @@ struct LiveStream::Receiver {
     }
 
     std::unique_ptr<LiveConnection> connect(double seconds) const {
-        return isCamera(address) ? connectToCamera(address, options.open_camera, seconds, ending.get_token())
+        return isCamera(address) ? connectToCamera(address, options.open_camera, {seconds, options.camera_close_s},
+                                                   ending.get_token())
                                  : connectToNet(address, seconds, ending.get_token());
     }
 

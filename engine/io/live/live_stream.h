@@ -23,7 +23,8 @@ struct LiveOptions {
     /// With less space for the recording than this the stream ends, so that what was found can still be stored.
     std::uint64_t least_free_bytes = 100'000'000;
     std::vector<std::filesystem::path> also_written;  ///< what grows on other disks, which must keep that space, too
-    CameraOpener open_camera;  ///< empty: openCamera(); may still be at work when the stream is gone (CameraReader)
+    double camera_close_s = 0.5;  ///< how long a camera may take to be closed; one that hangs is left to itself then
+    CameraOpener open_camera;     ///< empty: openCamera(); may still be at work when the stream is gone (CameraReader)
 };
 
 /// What became of a stream so far.

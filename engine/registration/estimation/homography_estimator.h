@@ -12,7 +12,7 @@ namespace eyrie {
 
 /// When corners agree with a homography, and when there are enough of them.
 struct HomographyOptions {
-    double inlier_distance = 1.0;
+    double inlier_distance = 1.0;  ///< px
     int min_inliers = 16;
     double min_inlier_share = 0.12;
 

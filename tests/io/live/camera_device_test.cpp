@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "core/error.h"
+#include "io/live/camera_reader.h"
 #include "io/live/live_stream.h"
 #include "io/numbered_video.h"
 #include "support/temporary_folder.h"
@@ -155,6 +156,7 @@ TEST_F(CameraStreams, StopDoesNotWaitForOneThatHangs) {
     const std::future<void> closed = closing->get_future();
     LiveOptions hanging = options({});
     hanging.stall_s = 1000;  // it is not opened again
+    hanging.camera_close_s = 0.01;
     hanging.open_camera = [let_go, closing](const std::string&) {
         return std::make_unique<HangingCamera>(let_go, closing);
     };
@@ -182,6 +184,7 @@ TEST_F(CameraStreams, StopDoesNotWaitForOneThatHangsWhileItIsOpened) {
     std::stop_source stop;
     LiveOptions hanging = options({});
     hanging.stall_s = 1000;  // it is not opened again
+    hanging.camera_close_s = 0.01;
     hanging.connect_s = 1000;
     hanging.open_camera = [let_go, closing, stop](const std::string&) mutable {
         stop.request_stop();  // while it is waited for
@@ -193,6 +196,100 @@ TEST_F(CameraStreams, StopDoesNotWaitForOneThatHangsWhileItIsOpened) {
     EXPECT_FALSE(std::filesystem::exists(folder_ / "recorded.ts"));
     letting_go.set_value();
     closed.wait();
+}
+
+TEST_F(CameraStreams, OneThatHungIsOpenedAgainOnceItIsClosed) {
+    std::promise<void> letting_go;
+    const std::shared_future<void> let_go = letting_go.get_future().share();
+    const auto closing = std::make_shared<std::promise<void>>();
+    const std::shared_future<void> closed = closing->get_future().share();
+    LiveOptions hanging = options({});
+    hanging.stall_s = 0.2;
+    hanging.camera_close_s = 0.01;
+    hanging.give_up_s = 1000;
+    std::stop_source stop;
+    hanging.open_camera = [=, this](const std::string& device) mutable -> std::unique_ptr<CameraDevice> {
+        const std::size_t turn = turn_++;
+        if (turn == 0) return std::make_unique<HangingCamera>(let_go, closing);
+        if (turn == 1 && closed.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
+            return std::make_unique<PlayedCamera>(500, 20, cv::Size(160, 64));
+        stop.request_stop();
+        throw Error(ErrorKind::input, device + ": another program uses this camera");
+    };
+    LiveStream stream("/dev/video0", hanging, stop.get_token());
+    std::vector<int> numbers;
+    const auto read = [&](int count) {
+        for (int i = 0; i < count; ++i)
+            numbers.push_back(test::numberIn(stream.read(static_cast<FrameIndex>(numbers.size()), false).gray));
+    };
+    try {
+        read(10);
+        while (stream.facts().connected) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        letting_go.set_value();
+        read(20);
+    } catch (const StreamEnded&) {
+    }
+    std::vector<int> expected = numbersFrom(0, 10);
+    for (const int number : numbersFrom(500, 20)) expected.push_back(number);
+    EXPECT_EQ(numbers, expected) << stream.facts().ended;
+    EXPECT_EQ(stream.facts().reconnects, 1);
+    stream.finish();
+}
+
+TEST_F(CameraStreams, OneThatFailsAfterItWasOpenedIsOpenedAgain) {
+    /// As a driver that throws what it has to say.
+    class FailingCamera : public PlayedCamera {
+     public:
+        using PlayedCamera::PlayedCamera;
+        bool read(cv::Mat& picture) override {
+            if (PlayedCamera::read(picture)) return true;
+            throw Error(ErrorKind::input, "the cable is loose");
+        }
+    };
+    LiveOptions failing = options({{0, 0}, {500, 20}});
+    failing.open_camera = [this,
+                           then = failing.open_camera](const std::string& device) -> std::unique_ptr<CameraDevice> {
+        if (turn_ > 0) return then(device);
+        ++turn_;
+        return std::make_unique<FailingCamera>(0, 10, cv::Size(160, 64));
+    };
+    LiveStream stream("/dev/video0", failing, {});
+    std::vector<int> expected = numbersFrom(0, 10);
+    for (const int number : numbersFrom(500, 20)) expected.push_back(number);
+    EXPECT_EQ(test::numbersOf(stream), expected);
+    EXPECT_EQ(stream.facts().reconnects, 1);
+}
+
+TEST(CameraReaders, WhoComesAfterOneThatHangsIsToldSo) {
+    const std::string device = "/dev/video-of-this-test";
+    std::promise<void> letting_go;
+    const std::shared_future<void> let_go = letting_go.get_future().share();
+    const auto closing = std::make_shared<std::promise<void>>();
+    const CameraOpener opens_hanging = [=](const std::string&) {
+        return std::make_unique<HangingCamera>(let_go, closing);
+    };
+    std::atomic<int> opened = 0;
+    const CameraOpener opens_good = [&](const std::string&) {
+        ++opened;
+        return std::make_unique<PlayedCamera>(7, 1, cv::Size(160, 64));
+    };
+    const CameraPatience impatient{0.01, 0.01};
+    {
+        CameraReader hanging(device, opens_hanging, impatient, {});
+        ASSERT_TRUE(hanging.next(1000, {}));
+        EXPECT_THAT(test::messageOf(ErrorKind::input, [&] { CameraReader(device, opens_good, impatient, {}); }),
+                    HasSubstr(device + ": this program uses this camera already"));
+    }
+    EXPECT_THAT(test::messageOf(ErrorKind::input, [&] { CameraReader(device, opens_good, impatient, {}); }),
+                HasSubstr(device + ": this camera hangs; disconnect it and connect it again"));
+    std::stop_source stop;
+    stop.request_stop();
+    EXPECT_FALSE(CameraReader(device, opens_good, {1000, 0.01}, stop.get_token()).next(1000, stop.get_token()));
+    EXPECT_EQ(opened, 0);
+    letting_go.set_value();
+    CameraReader good(device, opens_good, {1000, 1000}, {});
+    EXPECT_TRUE(good.next(1000, {}));
+    EXPECT_EQ(opened, 1);
 }
 
 /// A camera that grants JPEG or does not, and keeps what it is asked for.

@@ -1,4 +1,6 @@
+#include <QSignalSpy>
 #include <cmath>
+#include <filesystem>
 
 #include "ui/label/labelling.h"
 #include "ui/support/full_disk.h"
@@ -59,6 +61,29 @@ class LabelKeepingTest : public QObject, test::Labelling {
         second->labelling().actions().try_to_write->trigger();
         QVERIFY(second->labelling().labels().canEdit());
         QVERIFY(std::abs(object(*second, id).keyframes[0].box.centre.x - x - 1) < 1e-9);
+    }
+
+    void aFaultWhileFollowingIsToldOnceAndEndsNothing() {
+        auto first = labellingWindow(6);
+        QVERIFY(first);
+        const ObjectId id = draw(*first, {40, 60}, {58, 60});
+        const auto second = labellingWindow(6);
+        QVERIFY(second);
+        LabelSession& labels = second->labelling().labels();
+        QVERIFY(labels.readOnly());
+        const double x = object(*second, id).keyframes[0].box.centre.x;
+        const std::filesystem::path project = labels.projectPath();
+        std::filesystem::path away = project;
+        away += ".away";
+        QSignalSpy problems(&labels, &LabelSession::problem);
+        std::filesystem::rename(project, away);
+        const bool told = QTest::qWaitFor([&] { return !problems.isEmpty(); }, test::kPatience_ms);
+        std::filesystem::rename(away, project);
+        QVERIFY(told);
+        first->labelling().editor().nudge(1, 0);
+        const auto follows = [&] { return std::abs(object(*second, id).keyframes[0].box.centre.x - x - 1) < 1e-9; };
+        QVERIFY(QTest::qWaitFor(follows, test::kPatience_ms));
+        QCOMPARE(problems.count(), 1);
     }
 
     void onAFullDiskNothingIsShownThatIsNotStored() {

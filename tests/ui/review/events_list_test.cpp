@@ -441,6 +441,40 @@ class EventsListTest : public QObject {
         QCOMPARE(model.found()->eventAt(static_cast<std::size_t>(model.rowOf(id)))->tracks, std::vector<TrackId>{3});
     }
 
+    void theLastOfTheListStaysSelectedWhenTheListGetsShorter() {
+        std::vector<Event> ten;
+        for (int i = 0; i < 10; ++i) ten.push_back(happening(EventKind::stops, i + 1, 10 * i));
+        EventsModel model;
+        EventsPanel panel(&model, *actions_);
+        give(model, found(ten));
+        const int last = model.recordAt(9)->id;
+        panel.selectId(last);
+        QSignalSpy resets(&model, &QAbstractItemModel::modelReset);
+        give(model, found(std::vector<Event>(ten.begin() + 2, ten.end())));
+        QCOMPARE(model.rowCount(), 8);
+        QVERIFY(resets.isEmpty());
+        QCOMPARE(panel.table()->selectionModel()->selectedRows().size(), 1);
+        QCOMPARE(panel.currentId(), last);
+    }
+
+    void eventsWhoseTracksChangedNumbersAreTheSameStill() {
+        const auto so_far =
+            found({happeningAt(EventKind::turns_back, 1, 20, 20), happeningAt(EventKind::turns_back, 2, 20, 220)});
+        EventsModel model;
+        give(model, so_far);
+        const std::map<TrackId, int> before = idsByTrack(model);
+        give(model,
+             found({happeningAt(EventKind::turns_back, 2, 20, 20), happeningAt(EventKind::turns_back, 1, 20, 220)}, 100,
+                   true, so_far));
+        const std::map<TrackId, int> after = idsByTrack(model);
+        QCOMPARE(after.at(2), before.at(1));
+        QCOMPARE(after.at(1), before.at(2));
+        // From then on they are known by the numbers they have now.
+        give(model,
+             found({happeningAt(EventKind::turns_back, 2, 20, 20), happeningAt(EventKind::turns_back, 1, 20, 220)}));
+        QCOMPARE(idsByTrack(model), after);
+    }
+
     void aNoteIsWrittenInPlace() {
         EventsModel model;
         EventsPanel panel(&model, *actions_);

@@ -17,6 +17,7 @@
 #include "ui/support/ui_test.h"
 #include "widgets/elided_label.h"
 #include "widgets/message_bar.h"
+#include "widgets/wiring.h"
 #include "window/live/live_dialog.h"
 #include "window/live/live_strip.h"
 #include "window/live/live_text.h"
@@ -176,6 +177,10 @@ class LiveWindowTest : public QObject {
     }
 
     void whatHappenedSoFarIsListedWhileTheSourceIsWatched() {
+        bool emptied = false;
+        bool was_between = false;  // the run had ended, and its events were still to be searched
+        bool judged_between = false;
+        bool told_between = false;
         MainWindow window;
         const test::LiveSource source(*home_ / "");
         const LiveSender sender(source.port, {{test::writeFilm(*home_ / "film.ts", 600), 24, 0.3}});
@@ -195,12 +200,26 @@ class LiveWindowTest : public QObject {
         QVERIFY(window.actions().next_event->isEnabled());
         QVERIFY2(!window.actions().relevant->isEnabled(), "tracks may still change when the run ends");
         QVERIFY(!review.judge({0}, Judgement::relevant));
-        bool emptied = false;
-        connect(&window.events(), &EventsDock::eventsShown, this,
+        window.messages().dismissAll();
+        QObject listener;
+        whenChanged(window.session(), &listener,
+                    {{{SessionChange::current_run, SessionChange::run_data, SessionChange::run_ended}, [&] {
+                          const auto& data = window.session().runData();
+                          if (window.session().running() || !data || data->record.live || !review.asOf() ||
+                              window.session().currentRun() != data->record.id)
+                              return;
+                          was_between = true;
+                          judged_between = judged_between || review.judge({0}, Judgement::relevant);
+                          const QString told = window.messages().texts().join(QLatin1Char('\n'));
+                          told_between = told_between || told.contains(QStringLiteral("whole run has been searched"));
+                      }}});
+        connect(&window.events(), &EventsDock::eventsShown, &listener,
                 [&] { emptied = emptied || (review.state() != EventReview::State::found && review.count() == 0); });
         QVERIFY(press(window.liveStrip(), QStringLiteral("Stop watching")));
         QVERIFY(waitFor([&] { return review.state() == EventReview::State::found; }));
-        disconnect(&window.events(), nullptr, this, nullptr);
+        QVERIFY(was_between);
+        QVERIFY(!judged_between);
+        QVERIFY2(told_between, "it is not said to wait for an end that has been");
         QVERIFY2(!emptied, "what was found stays in the list until all is searched");
         QVERIFY(!review.asOf());
         QVERIFY(panel.headerText().contains(QStringLiteral("judged")));

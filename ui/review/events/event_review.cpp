@@ -101,7 +101,7 @@ void EventReview::refresh() {
 /// When a live source has ended, its recording is opened: what was found in it stays.
 void EventReview::otherVideo() {
     const bool recorded = live_ && session_.currentRun() == live_->run && session_.project() == live_->project &&
-                          session_.media() && session_.media()->identity == recording_;
+                          session_.media() && session_.media()->identity == live_->recording;
     if (!recorded) close();
 }
 
@@ -123,6 +123,7 @@ void EventReview::close() {
     search_query_.cancel();
     search_due_.stop();
     reread_.stop();
+    reread_fault_told_ = false;
     look_again_.stop();
     key_.reset();
     data_.reset();
@@ -177,10 +178,12 @@ void EventReview::openStore(int sequence_id) {
 void EventReview::search() {
     search_due_.stop();
     if (!key_ || !store_) return;
+    // What is listed was found in other tracks of the same run: before it was done, or before they were corrected.
+    const auto former = found_ && found_->run != tracks_ ? found_ : nullptr;
     const auto work = [this, key = *key_, data = data_, tracks = tracks_, options = options_,
                        verdicts = store_->review().verdicts, corrections = store_->review().corrections,
                        zones = zonesOf(store_->review().zones), version = store_->version(),
-                       memo = session_.correctedTracks(), former = so_far_ ? found_ : nullptr,
+                       memo = session_.correctedTracks(), former, number = ++searches_,
                        corrections_made = corrections_made_](const BackgroundTask& task) mutable {
         if (!tracks) {
             ProjectFile project = ProjectFile::open(key.project, ProjectFile::Mode::read_only);
@@ -195,7 +198,7 @@ void EventReview::search() {
         }
         if (task.stop().stop_requested()) return;
         const auto found = findAndOrder(tracks, options, verdicts, zones, former);
-        task.tell([this, found, version] { adopt(found, version); });
+        task.tell([this, found, version, number] { adopt(found, version, number); });
     };
     search_query_.ask(
         work, [this](const QString& message) { fail(message); }, BackgroundQuery::Former::finish);
@@ -210,8 +213,7 @@ void EventReview::watchRun(const RunRecord& run) {
     setState(State::at_work);
     // Who watches a live source acts on what happens now; of a file all is there soon.
     if (session_.liveSource() == nullptr) return;
-    live_ = RunKey{session_.project(), run.id};
-    recording_ = run.sequence.path;
+    live_ = LiveRunKey{session_.project(), run.id, run.sequence.path};
     look_again_.start();
 }
 
@@ -258,13 +260,15 @@ std::optional<FrameIndex> EventReview::asOf() const {
 
 // ---- events of a whole run ------------------------------------------------------------------------------------------
 
-void EventReview::adopt(const std::shared_ptr<const FoundEvents>& found, std::uint64_t version) {
+void EventReview::adopt(const std::shared_ptr<const FoundEvents>& found, std::uint64_t version, std::uint64_t number) {
     // While they were searched for, another run may have been chosen, or something judged.
     if (!key_ || found->run != tracks_ || !store_) return;
     if (version != store_->version()) {
         search();
         return;
     }
+    // Of several that follow the list shown the newest takes its place: the others would leave it nothing to follow.
+    if (found_ && found_->run != tracks_ && number != searches_) return;
     found_ = found;
     carried_ = found->carried;
     so_far_ = false;
@@ -281,11 +285,8 @@ void EventReview::rereadReadOnly() {
         ProjectFile project = ProjectFile::open(path, ProjectFile::Mode::read_only);
         task.tell([this, reading = ReviewStore::readIfChanged(project, sequence_id, known)] { follow(reading); });
     };
-    const auto failed = [this](const QString& message) {
-        reread_.stop();
-        answers_.tell_problem(message);
-    };
-    store_query_.ask(work, failed, BackgroundQuery::Former::finish);
+    store_query_.ask(
+        work, [this](const QString& message) { tellOnce(message); }, BackgroundQuery::Former::finish);
 }
 
 void EventReview::follow(std::optional<ReviewStore::Reading> reading) {
@@ -294,16 +295,22 @@ void EventReview::follow(std::optional<ReviewStore::Reading> reading) {
         // Events of verdicts that another window made are found; when it is closed, the right to judge is ours.
         const auto corrections = correctionsIn(*store_);
         const bool others = reading && store_->follow(std::move(*reading));
-        if (!store_->tryToWrite() && !others) return;
+        const bool may_write = store_->tryToWrite();
+        reread_fault_told_ = false;
+        if (!may_write && !others) return;
         answers_.show_zones();
         if (correctionsIn(*store_) != corrections)
             useOtherCorrections();
         else
             search();
     } catch (const std::exception& error) {
-        reread_.stop();
-        answers_.tell_problem(QString::fromUtf8(error.what()));
+        tellOnce(QString::fromUtf8(error.what()));
     }
+}
+
+/// What cannot be read now may be the next time: it is tried on.
+void EventReview::tellOnce(const QString& fault) {
+    if (!std::exchange(reread_fault_told_, true)) answers_.tell_problem(fault);
 }
 
 }  // namespace eyrie::ui

@@ -123,6 +123,12 @@ class EventReview : public QObject {
         std::size_t tracks = 0;
         bool operator==(const RunKey&) const = default;
     };
+    /// The run of a live source.
+    struct LiveRunKey {
+        std::filesystem::path project;
+        int run = 0;
+        std::string recording;  ///< its video
+    };
 
     void refresh();
     void close();
@@ -133,11 +139,12 @@ class EventReview : public QObject {
     void watchRun(const RunRecord& run);
     void searchSoFar();
     void adoptSoFar(const std::shared_ptr<const FoundEvents>& found, int run_id, double seconds);
-    void adopt(const std::shared_ptr<const FoundEvents>& found, std::uint64_t version);
+    void adopt(const std::shared_ptr<const FoundEvents>& found, std::uint64_t version, std::uint64_t number);
     void setState(State state);
     void fail(const QString& message);
     void rereadReadOnly();
     void follow(std::optional<ReviewStore::Reading> reading);
+    void tellOnce(const QString& fault);
     int& verdictIdAt(std::size_t position);
     int verdictIdAt(std::size_t position) const;
     bool mayWrite();
@@ -156,13 +163,13 @@ class EventReview : public QObject {
     std::optional<RunKey> key_;
     std::shared_ptr<const RunData> data_;
     std::optional<RunRecord> watched_;                   ///< the run that is not done yet
-    std::optional<RunKey> live_;                         ///< the run of a live source that is watched, or was
-    std::string recording_;                              ///< its video
+    std::optional<LiveRunKey> live_;                     ///< what is watched, or was
     bool so_far_ = false;                                ///< what is found is what was found while it was watched
     std::chrono::steady_clock::time_point next_look_{};  ///< at what it found so far
     EventOptions options_;
     std::shared_ptr<const StoredTracks> tracks_;  ///< of the run above, once they were read
     std::uint64_t corrections_made_ = 0;          ///< grows with every change of corrections
+    std::uint64_t searches_ = 0;                  ///< that were asked for
     std::shared_ptr<const FoundEvents> found_;
     CarriedVerdicts carried_;  ///< which event has which verdict now
     std::filesystem::path store_project_;
@@ -170,7 +177,8 @@ class EventReview : public QObject {
     std::unique_ptr<ProjectFile> project_;
     std::unique_ptr<ReviewStore> store_;
     DelayedCall search_due_;
-    RepeatedCall reread_;  ///< what another window judges is read now and then
+    RepeatedCall reread_;             ///< what another window judges is read now and then
+    bool reread_fault_told_ = false;  ///< and it could not be read since
     RepeatedCall look_again_;
     BackgroundQuery store_query_;
     BackgroundQuery search_query_;  ///< last: both stop before the rest goes

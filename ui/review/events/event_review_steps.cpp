@@ -57,7 +57,9 @@ bool EventReview::mayWrite() {
 
 bool EventReview::mayJudge() {
     const bool goes_on = watched_ || so_far_;
-    if (goes_on) answers_.tell_notice(tr("events can be judged when the run has ended"));
+    if (goes_on)
+        answers_.tell_notice(watched_ ? tr("events can be judged when the run has ended")
+                                      : tr("events can be judged when the whole run has been searched"));
     return found_ && !goes_on && mayWrite();
 }
 

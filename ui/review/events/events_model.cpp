@@ -60,29 +60,30 @@ void EventsModel::forgetIds() {
 }
 
 std::vector<int> EventsModel::idsOf(const FoundEvents& found) {
-    std::vector<EventIdentity> identities;
-    std::vector<int> ids;
-    std::map<EventIdentity, int> doubles;
+    std::vector<int> ids(found.queue.size(), 0);
     std::set<int> given;
-    for (std::size_t i = 0; i < found.queue.size(); ++i) {
+    const auto give = [&](std::size_t place, int id) {
+        if (given.insert(id).second) ids[place] = id;
+    };
+    // What went on meanwhile, or has other tracks since the run is done, is the same still: what it happened to counts
+    // for less, since another may have its number by now.
+    const bool follows = found_ && found.former.lock() == found_;
+    for (std::size_t i = 0; follows && i < ids.size(); ++i) {
+        const auto before = found.place_in_former.at(i);
+        const EventEntry* listed = before ? recordAt(static_cast<int>(*before)) : nullptr;
+        if (listed != nullptr) give(i, listed->id);
+    }
+    std::map<EventIdentity, int> doubles;
+    for (std::size_t i = 0; i < ids.size(); ++i) {
         const Event* event = found.eventAt(i);
         const FrameSpan frames = found.framesAt(i);
         EventIdentity identity{listedKindAt(found, i), event != nullptr ? event->tracks : std::vector<TrackId>(),
                                frames.first, frames.last, 0};
         std::get<4>(identity) = doubles[identity]++;
         const auto known = ids_.find(identity);
-        ids.push_back(known != ids_.end() && given.insert(known->second).second ? known->second : 0);
-        identities.push_back(std::move(identity));
-    }
-    // What went on meanwhile, or has other tracks since the run is done, is the same still.
-    const bool follows = found_ && found.former.lock() == found_;
-    for (std::size_t i = 0; i < ids.size(); ++i) {
-        if (ids[i] != 0) continue;
-        const auto before = follows ? found.place_in_former.at(i) : std::nullopt;
-        const EventEntry* listed = before ? recordAt(static_cast<int>(*before)) : nullptr;
-        ids[i] = listed != nullptr && given.insert(listed->id).second ? listed->id : next_id_++;
-        given.insert(ids[i]);
-        ids_[identities[i]] = ids[i];
+        if (ids[i] == 0 && known != ids_.end()) give(i, known->second);
+        if (ids[i] == 0) give(i, next_id_++);
+        ids_[std::move(identity)] = ids[i];
     }
     return ids;
 }

@@ -60,7 +60,8 @@ struct FoundEvents {
 };
 
 /// Searches stored tracks for events and gives them the verdicts they have. `former`: what was found in the same run
-/// when it was not done yet, whose tracks and their numbers may have been others; null: nothing.
+/// when it was not done yet or its tracks were not yet corrected, so that tracks and their numbers may have been
+/// others; null: nothing.
 std::shared_ptr<const FoundEvents> findAndOrder(const std::shared_ptr<const StoredTracks>& run,
                                                 const EventOptions& options, const std::map<int, Verdict>& verdicts,
                                                 const std::vector<Zone>& zones = {},

@@ -1,5 +1,6 @@
 #include "review/zones/zone_review.h"
 
+#include <exception>
 #include <map>
 #include <utility>
 
@@ -60,8 +61,9 @@ ZoneReview::ZoneReview(const ZoneParts& parts, QObject* parent)
                 set, id, [&](StoredZone& zone) { zone.shown = shown; }, judge);
         });
     });
-    // A file that is still being read was meant for the video before.
-    whenChanged(parts_.session, this, {{SessionChange::video, [this] { files_query_.cancel(); }}});
+    // A file that is still being read was meant for the video and the project before.
+    whenChanged(parts_.session, this,
+                {{{SessionChange::video, SessionChange::project}, [this] { reading_.cancel(); }}});
     bindCommands();
     showZones();
 }
@@ -173,41 +175,44 @@ void ZoneReview::setAnchor(int id, ZoneAnchor anchor) {
 
 // ---- files ----------------------------------------------------------------------------------------------------------
 
+bool ZoneReview::mayRead() {
+    if (!parts_.review.canMark()) parts_.messages.showTopic(kZonesTopic, MessageKind::warning, hintText());
+    return parts_.review.canMark();
+}
+
 void ZoneReview::readFile(const QString& path) {
-    if (!parts_.review.canMark()) {
-        parts_.messages.showTopic(kZonesTopic, MessageKind::warning, hintText());
-        return;
-    }
+    if (!mayRead()) return;
     const auto work = [this, path](const BackgroundTask& task) {
         const std::vector<Zone> zones = readZones(path.toStdString());
         task.tell([this, path, zones] { takeFrom(path, zones); });
     };
-    files_query_.ask(work, [this](const QString& fault) { tellFault(fault); });
+    reading_.ask(work, [this](const QString& fault) { tellFault(fault); });
 }
 
 void ZoneReview::takeFrom(const QString& path, const std::vector<Zone>& zones) {
-    std::size_t fresh = 0;
+    if (!mayRead()) return;  // another run may have been begun meanwhile
+    std::optional<std::size_t> fresh;
     const bool added = parts_.review.changeZones([&](const ReviewSet& set, const Judge& judge, const NewId& new_id) {
         ReviewEdit edit = addZones(set, zones, judge, new_id);
         fresh = edit.zones.size();
         return edit;
     });
-    if (!added && fresh > 0) return;  // that was told
-    const QString text = fresh == 0              ? tr("All zones of %1 are here already.")
-                         : fresh == zones.size() ? tr("Read the zones of %1.")
-                                                 : tr("Read the zones of %1 that were not here yet.");
+    if (!fresh || (!added && *fresh > 0)) return;  // why is told
+    const QString text = zones.empty()            ? tr("%1 has no zones.")
+                         : *fresh == 0            ? tr("All zones of %1 are here already.")
+                         : *fresh == zones.size() ? tr("Read the zones of %1.")
+                                                  : tr("Read the zones of %1 that were not here yet.");
     parts_.messages.showTopic(kZonesTopic, MessageKind::info, text.arg(path));
 }
 
 void ZoneReview::writeFile(const QString& path) {
-    const auto work = [this, path, zones = zonesOf(parts_.review.zones())](const BackgroundTask& task) {
-        writeZones(path.toStdString(), zones);
-        task.tell([this, path] {
-            parts_.messages.showTopic(kZonesTopic, MessageKind::info,
-                                      tr("Wrote %1. On the command line: --zone %1").arg(path));
-        });
-    };
-    files_query_.post(work, [this](const QString& fault) { tellFault(fault); });
+    try {
+        writeZones(path.toStdString(), zonesOf(parts_.review.zones()));
+    } catch (const std::exception& error) {
+        tellFault(QString::fromUtf8(error.what()));
+        return;
+    }
+    parts_.messages.showTopic(kZonesTopic, MessageKind::info, tr("Wrote %1. On the command line: --zone %1").arg(path));
 }
 
 void ZoneReview::tellFault(const QString& fault) {

@@ -46,8 +46,9 @@ class ZoneReview : public QObject {
     void setActive(bool active);
     /// The zones, or what was found in them, are others.
     void showZones();
-    /// Files as the command line reads them, read and written in the background; what is wrong with one is told.
+    /// Files as the command line reads them; what is wrong with one is told. Read in the background.
     void readFile(const QString& path);
+    /// Written when it returns, so that closing the window loses nothing: a few hundred bytes.
     void writeFile(const QString& path);
 
  signals:
@@ -62,6 +63,8 @@ class ZoneReview : public QObject {
     void showMarks();
     void enableActions();
     void carryDrawing();
+    /// Whether zones can be taken in, and tells why not.
+    bool mayRead();
     void takeFrom(const QString& path, const std::vector<Zone>& zones);
     /// What is wrong with a file.
     void tellFault(const QString& fault);
@@ -74,8 +77,8 @@ class ZoneReview : public QObject {
     ZonesPanel* panel_;
     ZoneTool* tool_;
     bool active_ = true;
-    int drawn_in_ = 0;             ///< frame that the points being drawn are meant in
-    BackgroundQuery files_query_;  ///< last: stops before the rest goes
+    int drawn_in_ = 0;         ///< frame that the points being drawn are meant in
+    BackgroundQuery reading_;  ///< a file; last: stops before the rest goes
 };
 
 }  // namespace eyrie::ui

@@ -35,36 +35,19 @@ class RecordModel : public QAbstractTableModel {
     const std::vector<Record>& records() const { return records_; }
 
     void replaceRecords(std::vector<Record> records) {
-        if (!removeMissing(records) || !startsLikeThis(records)) {
-            beginResetModel();
-            records_ = std::move(records);
-            endResetModel();
-            return;
-        }
-        const int old_count = rowCount();
-        const int new_count = static_cast<int>(records.size());
-        std::copy_n(records.begin(), old_count, records_.begin());
-        if (old_count > 0) emit dataChanged(index(0, 0), index(old_count - 1, columnCount() - 1));
-        if (new_count == old_count) return;
-        beginInsertRows({}, old_count, new_count - 1);
-        records_ = std::move(records);
-        endInsertRows();
+        if (startsWithWhatStays(records))
+            change(std::move(records));
+        else
+            showAnew(std::move(records));
     }
 
     /// The same where rows may also come between others and change places: all that stays is kept by the view, but for
     /// very many that come or go.
     void mergeRecords(std::vector<Record> records) {
-        if (startsLikeThis(records) || runsOfNew(records) > kMostInsertions || !removeMissing(records)) {
-            replaceRecords(std::move(records));
-            return;
-        }
-        std::unordered_map<int, int> row_of;
-        for (std::size_t row = 0; row < records.size(); ++row) row_of[records[row].id] = static_cast<int>(row);
-        // First what they hold, so that whoever sorts and filters meanwhile sees nothing of the past.
-        for (Record& mine : records_) mine = records[static_cast<std::size_t>(row_of.at(mine.id))];
-        if (rowCount() > 0) emit dataChanged(index(0, 0), index(rowCount() - 1, columnCount() - 1));
-        arrange(row_of);
-        insertMissing(records);
+        if (runsOfNew(records) <= kMostInsertions)
+            change(std::move(records));
+        else
+            showAnew(std::move(records));
     }
 
     void changeRecord(int row, Record record) {
@@ -82,6 +65,49 @@ class RecordModel : public QAbstractTableModel {
     static constexpr std::ptrdiff_t kMostRemovals = 16;
     static constexpr int kMostInsertions = 64;  ///< each of rows that follow each other
 
+    using RowById = std::unordered_map<int, int>;
+    static RowById rowsOf(const std::vector<Record>& records) {
+        RowById row_of;
+        for (std::size_t row = 0; row < records.size(); ++row) row_of[records[row].id] = static_cast<int>(row);
+        return row_of;
+    }
+
+    void showAnew(std::vector<Record> records) {
+        beginResetModel();
+        records_ = std::move(records);
+        endResetModel();
+    }
+
+    void change(std::vector<Record> records) {
+        const RowById row_of = rowsOf(records);
+        const auto goes = [&](const Record& mine) { return !row_of.contains(mine.id); };
+        if (std::count_if(records_.begin(), records_.end(), goes) > kMostRemovals) return showAnew(std::move(records));
+        // First what they hold, so that whoever sorts, filters and selects meanwhile sees nothing of the past.
+        for (Record& mine : records_)
+            if (!goes(mine)) mine = records[static_cast<std::size_t>(row_of.at(mine.id))];
+        if (rowCount() > 0) emit dataChanged(index(0, 0), index(rowCount() - 1, columnCount() - 1));
+        for (int row = rowCount() - 1; row >= 0; --row) {
+            if (!goes(records_[static_cast<std::size_t>(row)])) continue;
+            beginRemoveRows({}, row, row);
+            records_.erase(records_.begin() + row);
+            endRemoveRows();
+        }
+        arrange(row_of);
+        insertMissing(records);
+    }
+
+    /// Whether those that stay come first in `records`, in the order they have.
+    bool startsWithWhatStays(const std::vector<Record>& records) const {
+        const RowById row_of = rowsOf(records);
+        std::size_t next = 0;
+        for (const Record& mine : records_) {
+            if (!row_of.contains(mine.id)) continue;
+            if (records[next].id != mine.id) return false;
+            ++next;
+        }
+        return true;
+    }
+
     /// How often rows that are new follow one that is not.
     int runsOfNew(const std::vector<Record>& records) const {
         std::unordered_set<int> mine;
@@ -97,7 +123,7 @@ class RecordModel : public QAbstractTableModel {
     }
 
     /// Puts the rows in the order in which they will stand.
-    void arrange(const std::unordered_map<int, int>& row_of) {
+    void arrange(const RowById& row_of) {
         const auto later = [&](const Record& a, const Record& b) { return row_of.at(a.id) < row_of.at(b.id); };
         if (std::is_sorted(records_.begin(), records_.end(), later)) return;
         emit layoutAboutToBeChanged();
@@ -134,28 +160,6 @@ class RecordModel : public QAbstractTableModel {
             endInsertRows();
             row = end - 1;
         }
-    }
-
-    /// Removes the rows that `records` does not have, if they are few. Answers whether it did.
-    bool removeMissing(const std::vector<Record>& records) {
-        if (startsLikeThis(records)) return true;
-        std::unordered_set<int> ids;
-        for (const Record& record : records) ids.insert(record.id);
-        const auto is_missing = [&](const Record& mine) { return !ids.contains(mine.id); };
-        if (std::count_if(records_.begin(), records_.end(), is_missing) > kMostRemovals) return false;
-        for (int row = rowCount() - 1; row >= 0; --row) {
-            if (!is_missing(records_[static_cast<std::size_t>(row)])) continue;
-            beginRemoveRows({}, row, row);
-            records_.erase(records_.begin() + row);
-            endRemoveRows();
-        }
-        return true;
-    }
-
-    bool startsLikeThis(const std::vector<Record>& records) const {
-        return records_.size() <= records.size() &&
-               std::equal(records_.begin(), records_.end(), records.begin(),
-                          [](const Record& a, const Record& b) { return a.id == b.id; });
     }
 
     std::vector<Record> records_;
