@@ -12,15 +12,13 @@ constexpr std::int64_t kAgreement_us = 500'000;
 
 /// When the video began, as each stamp says; of one part or all.
 std::vector<std::int64_t> startsBy(const VideoMetadata& metadata, std::optional<int> part) {
-    // Stamps may be any 64 bits: differences are taken of what a calendar can hold.
-    constexpr std::int64_t kFarthest_us = 253'402'300'800LL * 1'000'000;
     std::vector<std::int64_t> starts;
     const std::vector<MetadataPacket>& packets = metadata.stream().packets;
     for (std::size_t i = 0; i < packets.size(); ++i) {
         const auto shown = metadata.timeline().timeOf(i);
         const auto& utc = packets[i].utc_us;
         const bool asked = !part || packets[i].part == *part;
-        if (asked && shown && utc && *utc > 0 && *utc < kFarthest_us) starts.push_back(*utc - *shown);
+        if (asked && shown && utc && *utc > 0) starts.push_back(*utc - *shown);
     }
     return starts;
 }

@@ -108,10 +108,13 @@ void Splitter::split(bool at_end, const Visitor& visit) {
 }
 
 void Splitter::feed(Bytes packet, const Visitor& visit) {
-    // A packet that begins with a key ends whatever was left open.
     if (!held_.empty() && beginsWithKey(packet)) split(true, visit);
-    held_.insert(held_.end(), packet.begin(), packet.end());
-    fed_ += packet.size();
+    feedPiece(packet, visit);
+}
+
+void Splitter::feedPiece(Bytes piece, const Visitor& visit) {
+    held_.insert(held_.end(), piece.begin(), piece.end());
+    fed_ += piece.size();
     split(false, visit);
 }
 

@@ -39,7 +39,10 @@ class Splitter {
     /// trusted.
     using Visitor = std::function<std::optional<Fault>(const Set&)>;
 
+    /// What begins with a key ends whatever was left open.
     void feed(Bytes packet, const Visitor& visit);
+    /// A piece of a stream without packets, cut anywhere.
+    void feedPiece(Bytes piece, const Visitor& visit);
     /// The stream has ended.
     void finish(const Visitor& visit);
     const FaultCounts& faults() const { return faults_; }

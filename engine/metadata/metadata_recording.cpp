@@ -48,7 +48,7 @@ MetadataRecording readRaw(const std::filesystem::path& path, const IndexProgress
             throw Error(ErrorKind::input, path.string() + ": stopped while reading its metadata");
         const auto count = static_cast<std::size_t>(file.gcount());
         const std::vector<std::uint8_t> bytes(chunk.begin(), chunk.begin() + static_cast<std::ptrdiff_t>(count));
-        collector.feed({-1, kNoStamp, position, 0, bytes});
+        collector.feedPiece({-1, kNoStamp, position, 0, bytes});
         position += file.gcount();
         if (progress) progress(static_cast<double>(position) / size);
     }
@@ -129,11 +129,20 @@ int MetadataRecording::mostUseful() const {
     return best == streams.end() || best->packets.empty() ? -1 : static_cast<int>(best - streams.begin());
 }
 
-void MetadataCollector::feed(const DataPacket& packet) {
+void MetadataCollector::carry(const DataPacket& packet) {
     carriage_.stamp_us = packet.stamp_us;
     carriage_.position = packet.position;
     carriage_.pictures_before = packet.pictures_before;
+}
+
+void MetadataCollector::feed(const DataPacket& packet) {
+    carry(packet);
     splitter_.feed(packet.bytes, [this](const klv::Set& set) { return take(set); });
+}
+
+void MetadataCollector::feedPiece(const DataPacket& piece) {
+    carry(piece);
+    splitter_.feedPiece(piece.bytes, [this](const klv::Set& set) { return take(set); });
 }
 
 std::optional<klv::Fault> MetadataCollector::take(const klv::Set& set) {

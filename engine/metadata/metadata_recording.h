@@ -60,11 +60,14 @@ class MetadataCollector {
         carriage_.part = part;
     }
     void feed(const DataPacket& packet);
+    /// The same of a file that is nothing but metadata, of which a piece may end anywhere.
+    void feedPiece(const DataPacket& piece);
     /// What comes next is another file: no set goes on in it, and its clock is its own.
     void endOfPart();
     MetadataStream finish();
 
  private:
+    void carry(const DataPacket& packet);
     std::optional<klv::Fault> take(const klv::Set& set);
 
     MetadataStream stream_;

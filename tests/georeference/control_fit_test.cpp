@@ -192,5 +192,122 @@ TEST(ControlFit, TheyCountWithoutAnyMetadata) {
     EXPECT_THAT(videoWorldOf(nullptr, market(three)).no_places, testing::HasSubstr("four are needed"));
 }
 
+TEST(ProjectiveMapByHand, IsScaledToOneAndPositiveWhereThePointsLie) {
+    // x' = (2 x + 10) / (1 + x / 100), y' = (3 y − 4) / (1 + x / 100).
+    const std::vector<cv::Point2d> image{{0, 0}, {100, 0}, {100, 50}, {0, 50}};
+    const std::vector<cv::Point2d> plane{{10, -4}, {105, -2}, {105, 73}, {10, 146}};
+    const auto map = projectiveMap(image, plane);
+    ASSERT_TRUE(map);
+    const cv::Matx33d expected{2, 0, 10, 0, 3, -4, 0.01, 0, 1};
+    for (int i = 0; i < 9; ++i) EXPECT_NEAR(map->val[i], expected.val[i], 1e-7) << i;
+    EXPECT_FALSE(projectiveMap({image.begin(), image.begin() + 3}, {plane.begin(), plane.begin() + 3}));
+    EXPECT_FALSE(projectiveMap(image, {plane.begin(), plane.begin() + 3})) << "as many of both";
+    // Two corners exchanged: some of the points would lie behind the horizon.
+    EXPECT_FALSE(projectiveMap(image, {plane[1], plane[0], plane[2], plane[3]}));
+    // Far behind the camera's foot: where the map's last number is negative, the points are still in front.
+    const std::vector<cv::Point2d> far{{200, 0}, {300, 0}, {300, 50}, {200, 50}};
+    std::vector<cv::Point2d> ground;
+    for (const cv::Point2d& p : far) ground.emplace_back(p.x / (p.x / 100 - 1), p.y / (p.x / 100 - 1));
+    const auto beyond = projectiveMap(far, ground);
+    ASSERT_TRUE(beyond);
+    const cv::Matx33d ahead{1, 0, 0, 0, 1, 0, 0.01, 0, -1};
+    for (int i = 0; i < 9; ++i) EXPECT_NEAR(beyond->val[i], ahead.val[i], 1e-6) << i;
+}
+
+namespace {
+
+/// Each corner of 80 m by 60 m was placed twice, so far east and so far west of where it is.
+ControlFit placedTwice(double astray_m) {
+    std::vector<ControlPoint> points;
+    for (const cv::Point2d px : {cv::Point2d(20, 20), {180, 20}, {180, 80}, {20, 80}}) {
+        const cv::Point2d ground(px.x / 2, 80 - px.y);
+        for (const double off : {astray_m, -astray_m})
+            points.push_back({0, px, LocalPlane(kMarket).placeOf(ground + cv::Point2d(off, 0))});
+    }
+    const auto fits = fitControlPoints(points, {}, LocalPlane(kMarket));
+    EXPECT_EQ(fits.size(), 1U);
+    return fits.empty() ? ControlFit() : fits[0];
+}
+
+}  // namespace
+
+TEST(ControlFitByHand, PointsThatAreOffByAFiftiethOfTheirSpanAreDoubtful) {
+    // The span is hypot(80 + 2 off, 60): 102.4 m and 104 m. The best fit lies between both placings,
+    // but for what least squares of a projective map are biased: 5 m² over the (50 m)² of their reach.
+    const ControlFit good = placedTwice(1.5);
+    EXPECT_NEAR(good.rms_m, 1.5, 0.1);
+    EXPECT_EQ(good.points, 8);
+    EXPECT_FALSE(good.doubtful);
+    ASSERT_EQ(good.residuals.size(), 8U);
+    for (std::size_t i = 0; i < 8; ++i) {
+        EXPECT_EQ(good.residuals[i].point, i);
+        EXPECT_NEAR(good.residuals[i].metres, 1.5, 0.3);
+    }
+    const ControlFit bad = placedTwice(2.5);
+    EXPECT_NEAR(bad.rms_m, 2.5, 0.15);
+    EXPECT_TRUE(bad.doubtful);
+    EXPECT_FALSE(bad.suspect) << "none stands out of eight";
+    EXPECT_THAT(remarkOn(bad), testing::EndsWith(" m; several are probably wrong"));
+}
+
+TEST(ControlFitByHand, ThePlaceOfAPointIsToldByItsNumberFromOne) {
+    ControlFit fit;
+    fit.rms_m = 12.34;
+    fit.suspect = 2;
+    EXPECT_EQ(remarkOn(fit), "") << "not doubtful";
+    fit.doubtful = true;
+    fit.points = 6;
+    EXPECT_EQ(remarkOn(fit),
+              "the points contradict each other by 12.3 m; without point 3 the others agree, so that one is probably "
+              "wrong");
+    fit.suspect.reset();
+    EXPECT_THAT(remarkOn(fit), testing::EndsWith("several are probably wrong"));
+    fit.points = 5;
+    EXPECT_THAT(remarkOn(fit), testing::EndsWith("a sixth point would tell which"));
+}
+
+namespace {
+
+/// A picture of 200 × 100 px that is laid on the ground by its corners: a pixel to the right is `right` m, one down
+/// `down` m.
+GeoReference laid(cv::Point2d right, cv::Point2d down) {
+    std::vector<ControlPoint> points;
+    for (const cv::Point2d px : {cv::Point2d(0, 0), {199, 0}, {199, 99}, {0, 99}})
+        points.push_back({0, px, LocalPlane(kMarket).placeOf(px.x * right + px.y * down)});
+    return GeoReference::byControl(market(points));
+}
+
+}  // namespace
+
+TEST(GeoReferenceByHand, NorthCourseAndScaleOfASkewedPicture) {
+    // Of a picture whose right is east by half a metre and whose lower edge is 1 m east and half a metre south a pixel,
+    // 4 px right and 2 px up are (2 − 2, 1) m: north. Its top points to (−1, 0.5).
+    const GeoReference skewed = laid({0.5, 0}, {1, -0.5});
+    ASSERT_TRUE(skewed.known());
+    EXPECT_NEAR(skewed.northOf(0).value_or(0), 360 - std::atan2(2, 4) * 180 / CV_PI, 0.01);
+    EXPECT_NEAR(skewed.courseOf(0).value_or(0), 360 - std::atan2(1, 0.5) * 180 / CV_PI, 0.01);
+    EXPECT_NEAR(skewed.gsdOf(0).value_or(0), 0.5, 1e-4);  // √(0.5 · 0.5)
+    // The camera heads north-east: right is south-east, down is south-west.
+    const GeoReference turned = laid({0.2, -0.2}, {-0.3, -0.3});
+    EXPECT_NEAR(turned.courseOf(0).value_or(0), 45, 0.01);
+    // 2.5 px left and 1.67 px up are (−0.5 + 0.5, 0.5 + 0.5) m.
+    EXPECT_NEAR(turned.northOf(0).value_or(0), 180 + std::atan2(1 / 0.6, 1 / 0.4) * 180 / CV_PI, 0.01);
+    EXPECT_NEAR(turned.gsdOf(0).value_or(0), std::sqrt(0.12), 1e-4);  // 0.2 · 0.3 + 0.2 · 0.3
+    EXPECT_TRUE(turned.isByHand());
+    EXPECT_EQ(turned.origin(),
+              "4 control points placed by hand (0 m off their places, root mean square), carried by the registration");
+    const auto at = turned.metresOf(0, {10, 20});
+    ASSERT_TRUE(at);
+    EXPECT_NEAR(at->x, 2 - 6, 1e-3);
+    EXPECT_NEAR(at->y, -2 - 6, 1e-3);
+    // In frame 5 the ground lies 10 px to the left.
+    const auto later = turned.metresOf(5, {0, 20});
+    ASSERT_TRUE(later);
+    EXPECT_NEAR(later->x, 2 - 6, 1e-3);
+    EXPECT_NEAR(later->y, -2 - 6, 1e-3);
+    EXPECT_FALSE(turned.disagreement_m());
+    EXPECT_FALSE(turned.doubtful());
+}
+
 }  // namespace
 }  // namespace eyrie::control_fit_test

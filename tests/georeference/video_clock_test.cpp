@@ -9,15 +9,16 @@ namespace {
 
 constexpr std::int64_t kBegin_us = 1'231'798'102'000'000;
 constexpr int kSets = 40;
+constexpr std::uint64_t kUnstamped = 42;
 
-/// Ten sets a second, with a stamp each unless it is 0; a new part every so many.
+/// Ten sets a second, with a stamp each unless it is kUnstamped; a new part every so many.
 std::shared_ptr<const VideoMetadata> stamped(const std::function<std::uint64_t(int)>& stamp_of, int of_part = kSets) {
     MetadataCollector collector({1, 0x101, "klv"});
     std::vector<PictureStamp> pictures;
     for (int i = 0; i < kSets; ++i) {
         if (i > 0 && i % of_part == 0) collector.endOfPart();
         test::LocalSetWriter set;
-        if (stamp_of(i) > 0) set.time(stamp_of(i));
+        if (stamp_of(i) != kUnstamped) set.time(stamp_of(i));
         const auto bytes = set.range(tag::kPlatformHeading, 10, 0, 360).bytes();
         collector.feed({1, i * 100'000LL, 0, i, bytes});
         pictures.push_back({i * 100'000LL, i * 100'000LL});
@@ -32,7 +33,7 @@ TEST(VideoClock, knowsNothingOrWhatAPersonSays) {
     EXPECT_EQ(VideoClock().origin(), "");
     EXPECT_EQ(VideoClock::startingAt(kBegin_us).at(250'000), kBegin_us + 250'000);
     EXPECT_EQ(VideoClock::byMetadata(nullptr).source(), VideoClock::Source::none);
-    EXPECT_EQ(VideoClock::byMetadata(stamped([](int) { return 0; })).source(), VideoClock::Source::none);
+    EXPECT_EQ(VideoClock::byMetadata(stamped([](int) { return kUnstamped; })).source(), VideoClock::Source::none);
 }
 
 TEST(VideoClock, aSteadyClockCountsForTheWholeVideo) {
@@ -51,7 +52,11 @@ TEST(VideoClock, aFewStampsThatJumpDoNotCount) {
         return static_cast<std::uint64_t>(kBegin_us + i * 100'000);
     }));
     EXPECT_EQ(clock.at(700'000), kBegin_us + 700'000);
-    EXPECT_NE(clock.origin().find("disagree"), std::string::npos);
+    EXPECT_EQ(clock.origin(), "the video's metadata, without 1 stamp that disagrees") << "the other is none";
+    const auto unset = VideoClock::byMetadata(
+        stamped([](int i) { return i < 20 ? std::uint64_t{0} : static_cast<std::uint64_t>(kBegin_us + i * 100'000); }));
+    EXPECT_EQ(unset.at(700'000), kBegin_us + 700'000) << "a clock that is not set yet";
+    EXPECT_EQ(unset.origin(), "the video's metadata");
 }
 
 TEST(VideoClock, oneStampInTenMayDisagreeByMoreThanHalfASecond) {
@@ -60,6 +65,7 @@ TEST(VideoClock, oneStampInTenMayDisagreeByMoreThanHalfASecond) {
             [=](int i) { return static_cast<std::uint64_t>(kBegin_us + i * 100'000 + (i < odd ? by_us : 0)); }));
     };
     EXPECT_EQ(clockWith(9, 499'000).origin(), "the video's metadata");
+    EXPECT_EQ(clockWith(4, 500'000).origin(), "the video's metadata");
     EXPECT_EQ(clockWith(1, 501'000).origin(), "the video's metadata, without 1 stamp that disagrees");
     EXPECT_EQ(clockWith(4, -501'000).origin(), "the video's metadata, without 4 stamps that disagree");
     EXPECT_EQ(clockWith(4, 2'000'000).at(60'000'000), kBegin_us + 60'000'000);
@@ -97,7 +103,7 @@ TEST(VideoClock, everyPartBeginsWhenItsMetadataSay) {
     EXPECT_EQ(clock.at(999'999), kBegin_us + 999'999);
     EXPECT_EQ(clock.at(1'000'000), kBegin_us + 61'000'000);
     EXPECT_EQ(clock.at(2'500'000), kBegin_us + 122'500'000);
-    EXPECT_EQ(clock.origin().find("not steady"), std::string::npos);
+    EXPECT_EQ(clock.origin(), "the video's metadata");
 }
 
 TEST(VideoClock, whatTheListSaysOfAPartCountsBeforeItsMetadata) {
@@ -118,7 +124,7 @@ TEST(VideoClock, aPartOfWhichNothingTellsFollowsWithoutAGap) {
     EXPECT_EQ(clock.at(0), kBegin_us - 1'000'000) << "leads up to the first that is known";
     EXPECT_EQ(clock.at(1'000'000), kBegin_us);
     EXPECT_EQ(clock.at(2'250'000), kBegin_us + 1'250'000);
-    EXPECT_NE(clock.origin().find("2 parts with no known start follow without a gap"), std::string::npos);
+    EXPECT_EQ(clock.origin(), "the start times in the list of parts; 2 parts with no known start follow without a gap");
     EXPECT_EQ(VideoClock::ofParts(threeParts(), nullptr, std::nullopt).source(), VideoClock::Source::none);
 }
 
@@ -163,6 +169,15 @@ TEST(VideoClock, everyPartBeginsWhenItsFileDidUnlessThatWasBefore) {
     EXPECT_EQ(clock.at(1'500'000), kBegin_us + 1'500'000) << "one time for both: the second goes on";
     EXPECT_EQ(clock.at(2'000'000), kBegin_us + 60'000'000);
     EXPECT_EQ(clock.origin(), "the files' creation times");
+    // Files tell it to the second: only what is more than one later than it would go on is a gap.
+    found.parts[1].created_utc_us = kBegin_us + 2'000'000;
+    EXPECT_EQ(VideoClock::of(found, std::nullopt).at(1'500'000), kBegin_us + 1'500'000);
+    found.parts[1].created_utc_us = kBegin_us + 2'000'001;
+    EXPECT_EQ(VideoClock::of(found, std::nullopt).at(1'500'000), kBegin_us + 2'500'001);
+    found.parts[1].created_utc_us.reset();
+    EXPECT_EQ(VideoClock::of(found, std::nullopt).at(1'500'000), kBegin_us + 1'500'000);
+    EXPECT_EQ(VideoClock::of(found, std::nullopt).origin(),
+              "the files' creation times; 1 part with no known start follows without a gap");
     found.parts[0].start_utc_us = kBegin_us - 5'000'000;
     EXPECT_EQ(VideoClock::of(found, std::nullopt).source(), VideoClock::Source::given) << "a list says it";
     EXPECT_EQ(VideoClock::of(found, std::nullopt).at(2'000'000), kBegin_us - 3'000'000);
@@ -194,6 +209,11 @@ TEST(VideoClock, aPartWhoseClockJumpsHasTheTimesOfItsMoments) {
     EXPECT_EQ(clock.at(1'200'000), kBegin_us + 1'200'000 + 9'000'000);
     EXPECT_EQ(clock.at(2'500'000), kBegin_us + 2'500'000);
     EXPECT_NE(clock.origin().find("not steady"), std::string::npos);
+    // Gaps cannot be kept of what jumps; a start that is given counts alone.
+    const auto given = VideoClock::ofParts(threeParts(), metadata, kBegin_us + 7);
+    EXPECT_EQ(given.at(1'200'000), kBegin_us + 1'200'007);
+    EXPECT_EQ(given.at(2'500'000), kBegin_us + 2'500'007);
+    EXPECT_EQ(given.origin(), "the start time given");
 }
 
 }  // namespace eyrie::video_clock_test

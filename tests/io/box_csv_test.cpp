@@ -166,6 +166,40 @@ TEST_F(BoxCsv, IgnoredRegionsMayHaveNames) {
     EXPECT_NE(boxes.at(1)[0].id, boxes.at(1)[1].id);
 }
 
+TEST_F(BoxCsv, NamedRegionsNeedNumbersAboveAllOthers) {
+    const std::string header = "frame,id,x,y,length,width,heading,ignore\n";
+    const std::string named = "0,i1,1,1,1,1,0,1\n0,i2,1,1,1,1,0,1\n1,i1,1,1,1,1,0,1\n";
+    const BoxesByFrame boxes = read(header + "0,2147483645,1,1,1,1,0,0\n" + named);
+    EXPECT_EQ(boxes.at(0)[1].id, 2147483646);
+    EXPECT_EQ(boxes.at(0)[2].id, 2147483647);
+    EXPECT_EQ(boxes.at(1)[0].id, 2147483646);
+    EXPECT_THAT(test::messageOf(ErrorKind::input, [&] { read(header + "0,2147483646,1,1,1,1,0,0\n" + named); }),
+                HasSubstr("id 2147483646 leaves no number"));
+    EXPECT_EQ(read(header + "0,2147483647,1,1,1,1,0,0\n").at(0)[0].id, 2147483647) << "without names it may be any";
+    EXPECT_EQ(read(header + "0,i1,1,1,1,1,0,1\n").at(0)[0].id, 0) << "where no others are they count from 0";
+}
+
+TEST_F(BoxCsv, IgnoreIsANumberOrAWord) {
+    const auto ignored = [&](const std::string& word) {
+        return read("frame,x,y,length,width,heading,ignore\n0,1,1,1,1,0," + word + "\n").at(0)[0].ignore;
+    };
+    for (const char* yes : {"1", "1.0", "true", "True"}) EXPECT_TRUE(ignored(yes)) << yes;
+    for (const char* no : {"", "0", "false", "False"}) EXPECT_FALSE(ignored(no)) << no;
+    for (const char* neither : {"-1", "2", "yes"})
+        EXPECT_THAT(test::messageOf(ErrorKind::input, [&] { ignored(neither); }), HasSubstr("expected 0 or 1"));
+}
+
+TEST_F(BoxCsv, WholeNumbersTake32Bits) {
+    const std::string header = "frame,x,y,length,width,heading\n";
+    EXPECT_EQ(read(header + "2147483647,1,1,1,1,0\n").count(2147483647), 1U);
+    EXPECT_THAT(test::messageOf(ErrorKind::input, [&] { read(header + "2147483648,1,1,1,1,0\n"); }),
+                HasSubstr("expected a whole number"));
+    EXPECT_THAT(test::messageOf(ErrorKind::input, [&] { read(header + "-2147483648,1,1,1,1,0\n"); }),
+                HasSubstr("0 or more"));
+    EXPECT_THAT(test::messageOf(ErrorKind::input, [&] { read(header + "-2147483649,1,1,1,1,0\n"); }),
+                testing::Not(HasSubstr("0 or more")));
+}
+
 TEST_F(BoxCsv, ATableWithoutRowsIsEmpty) {
     EXPECT_TRUE(read("frame,id,x,y,length,width,heading\n").empty());
 }

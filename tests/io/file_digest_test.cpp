@@ -42,6 +42,33 @@ TEST(FileDigest, ofAFolderIsThatOfItsImagesAndTheirNames) {
     EXPECT_NE(sha256Of(folder.path()), before);
 }
 
+TEST(FileDigest, ofTheEdgesAre64KilobytesAtEitherEnd) {
+    const test::TemporaryFolder folder;
+    const auto edges = [&](const std::string& bytes) {
+        write(folder / "edges", bytes);
+        return edgeDigestOf(folder / "edges");
+    };
+    // Up to twice as much they meet, and every byte counts once.
+    for (const std::size_t size : {0, 3, 65'536, 65'537, 100'000, 131'072}) {
+        std::string bytes(size, 'a');
+        for (std::size_t i = 0; i < size; i += 7) bytes[i] = static_cast<char>(i / 7 % 251);
+        const std::string digest = edges(bytes);
+        EXPECT_EQ(digest, sha256Of(folder / "edges")) << size;
+    }
+    const std::string longer(131'074, 'a');
+    const std::string digest = edges(longer);
+    const auto differsAt = [&](std::size_t at) {
+        std::string changed = longer;
+        changed[at] = 'b';
+        return edges(changed) != digest;
+    };
+    EXPECT_TRUE(differsAt(65'535));
+    EXPECT_FALSE(differsAt(65'536)) << "two bytes in the middle do not count";
+    EXPECT_FALSE(differsAt(65'537));
+    EXPECT_TRUE(differsAt(65'538));
+    EXPECT_TRUE(differsAt(131'073));
+}
+
 TEST(FileDigest, whatCannotBeReadIsRefused) {
     const test::TemporaryFolder folder;
     EXPECT_THROW(sha256Of(folder / "absent"), Error);

@@ -150,6 +150,24 @@ TEST(DamagedKlv, otherSetsAreCountedAndLeftAlone) {
     EXPECT_EQ(stream.other_sets.at("060e2b34020301010e01030302000000"), 1);
 }
 
+TEST(DamagedKlv, aThousandKindsOfOtherSetsAreToldApart) {
+    const auto kind = [](int number) {
+        KlvBytes set = test::bytesOfHex("060e2b34020301010e010303");
+        append(set, test::bigEndian(0x02000000U + static_cast<unsigned>(number), 4));
+        append(set, {1, 7});
+        return Carried{set};
+    };
+    std::vector<Carried> packets;
+    for (int i = 0; i < 1003; ++i) packets.push_back(kind(i));
+    packets.push_back(kind(0));
+    const MetadataStream stream = collected(packets);
+    EXPECT_EQ(stream.damaged(), 0);
+    EXPECT_EQ(stream.other_sets.size(), 1001U);
+    EXPECT_EQ(stream.other_sets.at("others"), 3);
+    EXPECT_EQ(stream.other_sets.at("060e2b34020301010e01030302000000"), 2);
+    EXPECT_EQ(stream.other_sets.at("060e2b34020301010e010303020003e7"), 1) << "the thousandth";
+}
+
 TEST(DamagedKlv, randomDamageNeverEndsTheReading) {
     std::mt19937 random(1);
     for (int round = 0; round < 300; ++round) {

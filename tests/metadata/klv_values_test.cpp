@@ -152,4 +152,175 @@ TEST(KlvValues, theUniversalSetMeansTheSameTags) {
     EXPECT_EQ(stream.tags.at(0).packets, 1);  // of unknown key
 }
 
+TEST(KlvBytesByHand, NumbersOfAnyLength) {
+    const auto whole = [](const char* hex) { return klv::signedOf(bytesOfHex(hex)); };
+    EXPECT_EQ(whole("7f"), 127);
+    EXPECT_EQ(whole("80"), -128);
+    EXPECT_EQ(whole("ff"), -1);
+    EXPECT_EQ(whole("00ff"), 255);
+    EXPECT_EQ(whole("ff01"), -255);
+    EXPECT_EQ(whole("800000"), -8'388'608);
+    EXPECT_EQ(whole("ffffffffffffff"), -1);
+    EXPECT_EQ(whole("fffffffffffffffe"), -2);
+    EXPECT_EQ(klv::unsignedOf(bytesOfHex("0102")), 258U);
+    EXPECT_EQ(klv::floatOf(bytesOfHex("3fc00000")), 1.5);
+    EXPECT_EQ(klv::floatOf(bytesOfHex("c000000000000000")), -2.0);
+    EXPECT_FALSE(klv::floatOf(bytesOfHex("3fc0000000")));
+    EXPECT_FALSE(klv::floatOf(bytesOfHex("7f800000"))) << "infinite";
+}
+
+TEST(KlvBytesByHand, LengthsUpToEightBytesAndTagsUpTo32Bits) {
+    const auto lengthOf = [](const char* hex) {
+        const KlvBytes bytes = bytesOfHex(hex);
+        return klv::ByteCursor(bytes).takeLength();
+    };
+    EXPECT_EQ(lengthOf("7f"), 127U);
+    EXPECT_EQ(lengthOf("880000000000000102"), 258U);
+    EXPECT_FALSE(lengthOf("89000000000000000102"));
+    const auto tagOf = [](const char* hex) {
+        const KlvBytes bytes = bytesOfHex(hex);
+        return klv::ByteCursor(bytes).takeTag();
+    };
+    EXPECT_EQ(tagOf("7f"), 127U);
+    EXPECT_EQ(tagOf("8100"), 128U);
+    EXPECT_EQ(tagOf("8fffffff7f"), 0xFFFFFFFFU);
+    EXPECT_FALSE(tagOf("9080808000")) << "2³²";
+    EXPECT_FALSE(tagOf("808080808001")) << "six bytes";
+    const KlvBytes bytes = bytesOfHex("010203");
+    klv::ByteCursor cursor(bytes);
+    EXPECT_FALSE(cursor.take(4));
+    EXPECT_EQ(cursor.left(), 3U) << "nothing was taken";
+    EXPECT_EQ((*cursor.take(1))[0], 1);
+    EXPECT_EQ((*cursor.take(2))[1], 3);
+    EXPECT_EQ(cursor.position(), 3U);
+    EXPECT_EQ(cursor.left(), 0U);
+}
+
+TEST(KlvBytesByHand, ImapbMeetsZeroExactly) {
+    // Over [−0.9, 0.7] one byte has 2^(7 − 1) steps a unit: 64 · −0.9 = −57.6, rounded down −58, so that code 58 is 0.
+    const auto across = [](int code) {
+        const KlvBytes bytes{static_cast<std::uint8_t>(code)};
+        return klv::imapbOf(bytes, -0.9, 0.7);
+    };
+    EXPECT_NEAR(across(58).value_or(9), 0, 1e-12);
+    EXPECT_NEAR(across(59).value_or(9), 1.0 / 64, 1e-12);
+    EXPECT_NEAR(across(1).value_or(9), -57.0 / 64, 1e-12);
+    EXPECT_FALSE(across(0)) << "−58 / 64 lies below the range";
+    EXPECT_NEAR(across(102).value_or(9), 44.0 / 64, 1e-12);
+    EXPECT_FALSE(across(103)) << "45 / 64 above";
+    // A range of less than a unit, on one side of 0: 128 steps a unit from its lower end.
+    EXPECT_NEAR(klv::imapbOf(bytesOfHex("40"), 0.3, 1.2).value_or(9), 0.8, 1e-12);
+    EXPECT_NEAR(klv::imapbOf(bytesOfHex("40"), -1.2, -0.3).value_or(9), -0.7, 1e-12);
+    // The top of a whole range is the highest bit alone.
+    EXPECT_EQ(klv::imapbOf(bytesOfHex("80"), 0, 1), 1.0);
+    EXPECT_FALSE(klv::imapbOf(bytesOfHex("81"), 0, 1));
+    EXPECT_EQ(klv::imapbOf(bytesOfHex("8000000000000000"), 0, 1), 1.0);
+    EXPECT_FALSE(klv::imapbOf({}, 0, 1));
+    EXPECT_FALSE(klv::imapbOf(bytesOfHex("000000000000000000"), 0, 1));
+}
+
+TEST(KlvSetsByHand, OfATagThatComesTwiceTheLastCounts) {
+    const MetadataStream stream = collected({{LocalSetWriter()
+                                                  .item(5, bytesOfHex("ffff"))
+                                                  .item(4, {})
+                                                  .item(5, bytesOfHex("0000"))
+                                                  .item(8, {7})
+                                                  .item(1000, {1})
+                                                  .item(1001, {1})
+                                                  .item(1500, {1})
+                                                  .bytes()}});
+    ASSERT_EQ(stream.packets.size(), 1U);
+    EXPECT_EQ(stream.packets[0].number(5), 0.0);
+    EXPECT_EQ(stream.packets[0].number(8), 7.0);
+    EXPECT_FALSE(stream.packets[0].number(6));
+    EXPECT_TRUE(stream.packets[0].texts.empty()) << "an empty text says nothing";
+    EXPECT_EQ(stream.tags.at(5).packets, 1) << "counted once a set";
+    EXPECT_EQ(stream.tags.at(1000).packets, 1);
+    EXPECT_EQ(stream.tags.count(1001), 0U) << "the standard has no tag beyond 1000";
+    EXPECT_EQ(stream.tags.at(0).packets, 1);
+    EXPECT_EQ(stream.without_time, 1);
+    EXPECT_EQ(stream.without_stamp, 1);
+}
+
+TEST(KlvSetsByHand, TimesReachIntoTheYear2255) {
+    const MetadataStream stream = collected({{LocalSetWriter().time(8'900'000'000'000'000).bytes(), 0},
+                                             {LocalSetWriter().time(9'100'000'000'000'000).bytes(), 0}});
+    EXPECT_EQ(stream.packets.at(0).utc_us, 8'900'000'000'000'000);
+    EXPECT_EQ(stream.packets.at(1).utc_us, std::nullopt);
+    EXPECT_EQ(stream.tags.at(tag::kTime).unreadable, 1);
+    EXPECT_EQ(stream.tags.at(tag::kTime).packets, 2);
+    EXPECT_EQ(stream.without_time, 1);
+    EXPECT_EQ(stream.without_stamp, 0);
+}
+
+TEST(KlvSetsByHand, SummariesHoldTheLeastTheGreatestAndTheFirstText) {
+    const auto set = [](double speed, const char* mission) {
+        LocalSetWriter writer;
+        writer.item(8, {static_cast<std::uint8_t>(speed)});
+        if (mission != nullptr) writer.item(3, KlvBytes(mission, mission + 1)).item(10, {'P'});
+        return test::Carried{writer.bytes()};
+    };
+    const MetadataStream stream = collected({set(30, "A"), set(10, nullptr), set(50, "A"), set(40, "B"), set(20, "A")});
+    EXPECT_EQ(stream.tags.at(8).least, 10);
+    EXPECT_EQ(stream.tags.at(8).greatest, 50);
+    EXPECT_TRUE(stream.tags.at(8).has_numbers);
+    EXPECT_EQ(stream.tags.at(3).text, "A");
+    EXPECT_TRUE(stream.tags.at(3).text_changes);
+    EXPECT_EQ(stream.tags.at(3).packets, 4);
+    EXPECT_FALSE(stream.tags.at(3).has_numbers);
+    EXPECT_EQ(stream.tags.at(10).text, "P");
+    EXPECT_FALSE(stream.tags.at(10).text_changes);
+}
+
+TEST(KlvSetsByHand, ALeapIsMoreThanTenSeconds) {
+    const auto leaps = [](std::uint64_t by_us) {
+        return collected(
+                   {{LocalSetWriter().time(1'000'000).bytes()}, {LocalSetWriter().time(1'000'000 + by_us).bytes()}})
+            .leaps;
+    };
+    EXPECT_EQ(leaps(10'000'000), 0);
+    EXPECT_EQ(leaps(10'000'001), 1);
+    const MetadataStream same =
+        collected({{LocalSetWriter().time(5'000'000).bytes()}, {LocalSetWriter().time(5'000'000).bytes()}});
+    EXPECT_EQ(same.steps_back, 0);
+    EXPECT_EQ(same.leaps, 0);
+}
+
+TEST(KlvSetsByHand, TheStreamWithMostPlacesIsTheMostUsefulThenTheLongest) {
+    const auto place = [] { return test::Carried{LocalSetWriter().angle(tag::kCentreLatitude, 5, 90).bytes()}; };
+    const auto nowhere = [] { return test::Carried{LocalSetWriter().angle(tag::kCentreLongitude, 5, 180).bytes()}; };
+    const auto unreadable = [] {
+        return test::Carried{LocalSetWriter().item(tag::kCentreLatitude, bytesOfHex("80000000")).bytes()};
+    };
+    MetadataRecording recording;
+    EXPECT_EQ(recording.mostUseful(), -1);
+    recording.streams.push_back(collected({nowhere(), unreadable(), unreadable()}));
+    EXPECT_EQ(recording.streams[0].places(), 0);
+    EXPECT_EQ(recording.mostUseful(), 0);
+    recording.streams.push_back(collected({place(), nowhere()}));
+    EXPECT_EQ(recording.streams[1].places(), 1);
+    EXPECT_EQ(recording.mostUseful(), 1);
+    recording.streams.push_back(collected({place(), nowhere(), nowhere()}));
+    EXPECT_EQ(recording.mostUseful(), 2);
+    recording.streams.push_back(collected({place(), place()}));
+    EXPECT_EQ(recording.mostUseful(), 3);
+    recording.streams = {MetadataStream()};
+    EXPECT_EQ(recording.mostUseful(), -1) << "no set could be read";
+}
+
+TEST(KlvSetsByHand, LengthsReachTo256Kilobytes) {
+    const auto faults = [](const char* length) {
+        KlvBytes head = test::localSetKey();
+        test::append(head, bytesOfHex(length));
+        return collected({{head}, {LocalSetWriter().item(8, {7}).bytes()}});
+    };
+    const MetadataStream longest = faults("83040000"), longer = faults("83040001");
+    EXPECT_EQ(test::faultsOf(longest, klv::Fault::cut_off), 1);
+    EXPECT_EQ(test::faultsOf(longest, klv::Fault::bad_length), 0);
+    EXPECT_EQ(test::faultsOf(longer, klv::Fault::cut_off), 0);
+    EXPECT_EQ(test::faultsOf(longer, klv::Fault::bad_length), 1);
+    EXPECT_EQ(longest.packets.size(), 1U);
+    EXPECT_EQ(longer.packets.size(), 1U);
+}
+
 }  // namespace eyrie::klv_values_test

@@ -142,6 +142,67 @@ TEST(MetadataFiles, rawDumps) {
     EXPECT_TRUE(flight.streams[0].packets[0].number(86));
 }
 
+TEST(MetadataFiles, aRawDumpIsReadInPiecesOfAnySize) {
+    // Sets of more than 100 bytes: together more than are read at once.
+    const test::TemporaryFolder folder;
+    constexpr int kSets = 900;
+    {
+        std::ofstream file(folder / "dump.klv", std::ios::binary);
+        for (int i = 0; i < kSets; ++i) {
+            const auto set = LocalSetWriter().item(3, test::KlvBytes(90, 'x')).angle(13, i / 10.0, 90).bytes();
+            file.write(reinterpret_cast<const char*>(set.data()), static_cast<std::streamsize>(set.size()));
+        }
+    }
+    const auto size = static_cast<std::int64_t>(std::filesystem::file_size(folder / "dump.klv"));
+    ASSERT_GT(size, 1 << 16);
+    EXPECT_TRUE(isRawKlv(folder / "dump.klv"));
+    std::vector<double> shares;
+    const MetadataRecording recording =
+        readMetadata(folder / "dump.klv", [&](double share) { shares.push_back(share); });
+    ASSERT_EQ(recording.streams.size(), 1U);
+    const MetadataStream& stream = recording.streams[0];
+    EXPECT_EQ(stream.track.number, -1);
+    EXPECT_EQ(stream.damaged(), 0);
+    EXPECT_EQ(stream.without_stamp, kSets);
+    ASSERT_EQ(stream.packets.size(), std::size_t{kSets});
+    for (int i = 0; i < kSets; ++i)
+        ASSERT_NEAR(stream.packets[static_cast<std::size_t>(i)].number(13).value_or(-1), i / 10.0, 1e-6);
+    EXPECT_EQ(stream.packets.front().position, 0);
+    EXPECT_GT(stream.packets.back().position, 0);
+    EXPECT_LT(stream.packets.back().position, size);
+    ASSERT_GE(shares.size(), 2U);
+    EXPECT_GT(shares.front(), 0);
+    EXPECT_LT(shares.front(), 1);
+    EXPECT_EQ(shares.back(), 1);
+    std::stop_source stop;
+    stop.request_stop();
+    EXPECT_THROW(readMetadata(folder / "dump.klv", {}, stop.get_token()), Error);
+    std::ofstream(folder / "short.klv", std::ios::binary) << "\x06\x0e\x2b";
+    EXPECT_FALSE(isRawKlv(folder / "short.klv"));
+    std::ofstream(folder / "text.klv", std::ios::binary) << "\x06\x0e\x2b\x35";
+    EXPECT_FALSE(isRawKlv(folder / "text.klv"));
+}
+
+TEST(MetadataFiles, aRawDumpMayBeCutAnywhereWithinASet) {
+    // Sets of 119 bytes behind one that shifts them: with 62 letters, a key lies 5 bytes behind the first 64 kilobytes,
+    // which looks like a packet with the header of an access unit cell.
+    const test::TemporaryFolder folder;
+    constexpr int kSets = 600;
+    for (const std::size_t letters : {57, 60, 62, 64, 80}) {
+        std::ofstream file(folder / "dump.klv", std::ios::binary);
+        for (int i = 0; i < kSets; ++i) {
+            const test::KlvBytes text(i == 0 ? letters : 90, 'x');
+            const auto set = LocalSetWriter().item(3, text).angle(13, 45, 90).bytes();
+            ASSERT_EQ(set.size(), 29 + text.size());
+            file.write(reinterpret_cast<const char*>(set.data()), static_cast<std::streamsize>(set.size()));
+        }
+        file.close();
+        const MetadataRecording recording = readMetadata(folder / "dump.klv");
+        EXPECT_EQ(recording.streams.at(0).packets.size(), std::size_t{kSets}) << letters;
+        EXPECT_EQ(recording.streams.at(0).damaged(), 0) << letters;
+    }
+}
+
 TEST(MetadataFiles, videosWithoutMetadataHaveNone) {
     EYRIE_NEED_SHARED_DATA("klv");
     for (const char* name : {"h264_no_klv.ts", "h264_audio.ts"}) {

@@ -164,4 +164,126 @@ TEST(MetadataTimeline, inEachPartOfAVideoItsOwnSetsCount) {
     EXPECT_EQ(timeline.at(kSecond).utc_us, 2'000 * kSecond);
 }
 
+namespace {
+
+/// Headings of two moments, the later one so long after the first.
+std::optional<double> headingBetween(double first, double second, std::int64_t apart_us, std::int64_t at_us,
+                                     const TimelineOptions& options = {}) {
+    const MetadataStream stream = collected({heading(first, 0), heading(second, apart_us)});
+    return MetadataTimeline(stream, pictures(100, 0), options).at(at_us).number(tag::kPlatformHeading);
+}
+
+}  // namespace
+
+TEST(TimelineByHand, AnglesGoRoundEitherWay) {
+    EXPECT_NEAR(*headingBetween(10, 350, kSecond, 750'000), 355, 0.01);  // 10 − 15, a whole turn on
+    EXPECT_NEAR(*headingBetween(10, 350, kSecond, 250'000), 5, 0.01);
+    EXPECT_NEAR(*headingBetween(100, 200, kSecond, 250'000), 125, 0.01);
+    const auto elevation = [](double first, double second, std::int64_t at_us) {
+        const MetadataStream stream =
+            collected({{LocalSetWriter().angle(tag::kSensorElevation, first, 180).bytes(), 0},
+                       {LocalSetWriter().angle(tag::kSensorElevation, second, 180).bytes(), kSecond}});
+        return *MetadataTimeline(stream, pictures(50, 0)).at(at_us).number(tag::kSensorElevation);
+    };
+    EXPECT_NEAR(elevation(170, -170, 750'000), -175, 1e-4);
+    EXPECT_NEAR(elevation(-170, 170, 750'000), 175, 1e-4);
+    EXPECT_NEAR(elevation(-30, -50, 250'000), -35, 1e-4);
+    EXPECT_NEAR(elevation(20, -20, 500'000), 0, 1e-4);
+}
+
+TEST(TimelineByHand, FlagsHoldUntilTheNext) {
+    const MetadataStream stream =
+        collected({{LocalSetWriter().item(47, {1}).bytes(), 0}, {LocalSetWriter().item(47, {9}).bytes(), kSecond}});
+    const MetadataTimeline timeline(stream, pictures(50, 0));
+    EXPECT_EQ(timeline.at(900'000).number(47), 1);
+    EXPECT_EQ(timeline.at(kSecond).number(47), 9);
+    EXPECT_FALSE(timeline.at(0).number(46));
+    EXPECT_FALSE(timeline.at(0).number(48));
+}
+
+TEST(TimelineByHand, TwoSecondsAreBridgedAndOneIsHeld) {
+    EXPECT_NEAR(*headingBetween(10, 30, 2 * kSecond, kSecond), 20, 0.01);
+    EXPECT_NEAR(*headingBetween(10, 30, 2'040'000, 900'000), 10, 0.01);
+    EXPECT_FALSE(headingBetween(10, 30, 2'040'000, 1'020'000)) << "1.02 s from both";
+    EXPECT_NEAR(*headingBetween(10, 30, 2'040'000, kSecond), 10, 0.01);
+    EXPECT_NEAR(*headingBetween(10, 30, 2'040'000, 1'040'000), 30, 0.01);
+    // Where less is bridged than held the nearer one counts, of both the first.
+    TimelineOptions options;
+    options.longest_gap_s = 0.5;
+    EXPECT_NEAR(*headingBetween(10, 30, kSecond, 400'000, options), 10, 0.01);
+    EXPECT_NEAR(*headingBetween(10, 30, kSecond, 500'000, options), 10, 0.01);
+    EXPECT_NEAR(*headingBetween(10, 30, kSecond, 600'000, options), 30, 0.01);
+    EXPECT_NEAR(*headingBetween(10, 30, 500'000, 250'000, options), 20, 0.01);
+}
+
+TEST(TimelineByHand, AStampIsWithinTwoSecondsOfAPicture) {
+    // The last of 50 pictures is shown at 1.96 s.
+    const auto placed = [](std::int64_t stamp_us, int pictures_before = 50) {
+        const MetadataStream stream = collected({heading(10, stamp_us, pictures_before)});
+        const MetadataTimeline timeline(stream, pictures(50, 0));
+        EXPECT_EQ(timeline.placedByStamp() + timeline.placedByFile(), 1);
+        return std::pair(timeline.timeOf(0).value_or(-1), timeline.placedByStamp());
+    };
+    EXPECT_EQ(placed(1'960'000 + 1'900'000), std::pair(std::int64_t{3'860'000}, 1));
+    EXPECT_EQ(placed(1'960'000 + 2'000'000), std::pair(std::int64_t{3'960'000}, 1));
+    EXPECT_EQ(placed(1'960'000 + 2'100'000), std::pair(std::int64_t{1'960'000}, 0)) << "the picture before it";
+    EXPECT_EQ(placed(-1'900'000, 0), std::pair(std::int64_t{-1'900'000}, 1));
+    EXPECT_EQ(placed(-2'100'000, 0), std::pair(std::int64_t{0}, 0)) << "the next where none is before it";
+    EXPECT_EQ(placed(-2'100'000, 1), std::pair(std::int64_t{0}, 0));
+    EXPECT_EQ(placed(-2'100'000, 2), std::pair(std::int64_t{40'000}, 0));
+    EXPECT_EQ(placed(kNoStamp, 999), std::pair(std::int64_t{1'960'000}, 0));
+    EXPECT_EQ(placed(kNoStamp, -5), std::pair(std::int64_t{0}, 0));
+}
+
+TEST(TimelineByHand, PicturesThatAreNotShownPlaceNothing) {
+    std::vector<PictureStamp> all = pictures(10, 0);
+    for (const std::size_t i : {0, 1, 2, 5}) all[i].time_us = kNoStamp;
+    const auto placed = [&](int pictures_before) {
+        const MetadataStream stream = collected({heading(10, kNoStamp, pictures_before)});
+        return MetadataTimeline(stream, all).timeOf(0);
+    };
+    EXPECT_EQ(placed(0), 120'000);
+    EXPECT_EQ(placed(2), 120'000);
+    EXPECT_EQ(placed(4), 120'000);
+    EXPECT_EQ(placed(6), 160'000) << "the sixth is not shown";
+    EXPECT_EQ(placed(7), 240'000);
+    // Nor is a stamp measured from one, though it be the nearest.
+    const MetadataStream stream = collected({heading(10, 205'000, 5)});
+    EXPECT_EQ(MetadataTimeline(stream, all).timeOf(0), 205'000);
+}
+
+TEST(TimelineByHand, ClocksMayDifferByHalfASecondBetweenTwoSets) {
+    constexpr std::int64_t noon = 1'600'000'000'000'000;
+    const auto utcAt = [&](std::int64_t later_us, std::int64_t at_us, std::int64_t apart_us = kSecond) {
+        const MetadataStream stream =
+            collected({heading(1, 0, 0, noon), heading(1, apart_us, 25, static_cast<std::uint64_t>(noon + later_us))});
+        const auto utc = MetadataTimeline(stream, pictures(100, 0)).at(at_us).utc_us;
+        return utc ? *utc - noon : std::int64_t{-1'000'000'000};
+    };
+    EXPECT_EQ(utcAt(1'400'000, 500'000), 700'000);  // 0.5 s and half of 0.4 s
+    EXPECT_EQ(utcAt(1'400'000, 250'000), 350'000);
+    EXPECT_EQ(utcAt(600'000, 250'000), 150'000);
+    EXPECT_EQ(utcAt(1'600'000, 250'000), 250'000) << "a jump: by the nearer set";
+    EXPECT_EQ(utcAt(1'600'000, 500'000), 500'000);
+    EXPECT_EQ(utcAt(1'600'000, 750'000), 1'350'000);
+    EXPECT_EQ(utcAt(1'000'000, 2'000'000), 2'000'000) << "held for a second";
+    EXPECT_EQ(utcAt(1'000'000, 2'040'000), -1'000'000'000);
+    EXPECT_EQ(utcAt(1'000'000, -1'000'000), -1'000'000);
+    EXPECT_EQ(utcAt(1'000'000, -1'040'000), -1'000'000'000);
+    EXPECT_EQ(utcAt(3'000'000, 1'500'000, 3 * kSecond), -1'000'000'000) << "three seconds are not bridged";
+    EXPECT_EQ(utcAt(2'200'000, 1'000'000, 2 * kSecond), 1'100'000);
+}
+
+TEST(TimelineByHand, TheShareCoveredEndsWhereHoldingDoes) {
+    const MetadataStream stream = collected({heading(1, 2 * kSecond, 50)});
+    const MetadataTimeline timeline(stream, pictures(260, 0));
+    EXPECT_NEAR(timeline.coveredShare(0, 4 * kSecond), 0.5, 1e-9);
+    EXPECT_NEAR(timeline.coveredShare(2 * kSecond, 6 * kSecond), 0.25, 1e-9);
+    EXPECT_NEAR(timeline.coveredShare(1'500'000, 2'500'000), 1, 1e-9);
+    EXPECT_EQ(timeline.coveredShare(kSecond, kSecond), 1);
+    EXPECT_EQ(timeline.coveredShare(960'000, 960'000), 0);
+    EXPECT_EQ(timeline.coveredShare(3 * kSecond, 3 * kSecond), 1);
+    EXPECT_EQ(timeline.coveredShare(3'040'000, 3'040'000), 0);
+}
+
 }  // namespace eyrie::metadata_timeline_test

@@ -94,6 +94,46 @@ TEST(CornerStrength, stripsJoinWithoutSeam) {
     }
 }
 
+TEST(CornerStrength, peaksKeepTheirMarginOnEverySide) {
+    const cv::Size size(70, 50);
+    const PaddedPicture picture = padded(test::TexturedGround(6).picture(size, cv::Matx33d::eye(), 2, 7));
+    for (const int radius : {1, 3}) {
+        const auto peaksWith = [&](int margin) {
+            StrengthLimits limits;
+            limits.window_radius = radius;
+            limits.margin = margin;
+            std::vector<StrengthPeak> peaks;
+            findStrengthPeaks(picture, 0, size.height, limits, peaks);
+            std::vector<std::pair<int, int>> places;
+            for (const StrengthPeak& peak : peaks) places.emplace_back(peak.x, peak.y);
+            return places;
+        };
+        // The window, the gradient's pixel and a neighbour must be inside in any case.
+        const auto all = peaksWith(0);
+        ASSERT_GT(all.size(), 15U);
+        const int least = radius + 2;
+        for (const int margin : {1, least - 1, least, least + 1, 9, 20}) {
+            const int kept = std::max(margin, least);
+            std::vector<std::pair<int, int>> expected;
+            for (const auto& [x, y] : all)
+                if (x >= kept && y >= kept && x < size.width - kept && y < size.height - kept)
+                    expected.emplace_back(x, y);
+            EXPECT_EQ(peaksWith(margin), expected) << radius << " " << margin;
+        }
+        int left = size.width, right = 0, top = size.height, bottom = 0;
+        for (const auto& [x, y] : all) {
+            left = std::min(left, x);
+            right = std::max(right, x);
+            top = std::min(top, y);
+            bottom = std::max(bottom, y);
+        }
+        EXPECT_GE(left, least);
+        EXPECT_LT(right, size.width - least);
+        EXPECT_GE(top, least);
+        EXPECT_LT(bottom, size.height - least);
+    }
+}
+
 TEST(CornerStrength, picturesTooSmallForTheWindowHaveNone) {
     for (const cv::Size size : {cv::Size(1, 1), cv::Size(7, 3), cv::Size(8, 8), cv::Size(40, 5)}) {
         const PaddedPicture picture = padded(test::TexturedGround(4).picture(size, cv::Matx33d::eye(), 9, 6));

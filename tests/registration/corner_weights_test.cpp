@@ -107,4 +107,41 @@ TEST(CornerWeights, whenMostSeemToMoveTheGroundWasMistaken) {
     EXPECT_EQ(std::count(half.weight.begin(), half.weight.end(), 0.0F), 2) << "only those that were lost";
 }
 
+TEST(CornerWeights, whatSticksToThePictureSaysNothingAndCrowdsNobody) {
+    // Three that stick and one beside them in a cell, four in another, three alone.
+    PlacedCorners corners;
+    for (int i = 0; i < 3; ++i) corners.add(1 + float(i), 5).sticks = true;
+    corners.add(8, 5);
+    for (int i = 0; i < 4; ++i) corners.add(105 + float(i), 105);
+    for (int i = 0; i < 3; ++i) corners.add(150 + 40 * float(i), 150);
+    const Correspondences pairs = corners.pairs();
+    ASSERT_EQ(pairs.size(), 11);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(pairs.weight[i], 0) << i;
+    EXPECT_NEAR(pairs.weight[3], 1, 1e-6);
+    for (std::size_t i = 4; i < 8; ++i) EXPECT_NEAR(pairs.weight[i], 2.0 / 4, 1e-6) << i;
+    for (std::size_t i = 8; i < 11; ++i) EXPECT_NEAR(pairs.weight[i], 1, 1e-6) << i;
+}
+
+TEST(CornerWeights, aCellIsASixteenthOfThePictureAndWhatIsUsualIsItsMedian) {
+    // 20 px: ten in the first cell, one just beyond it; both others alone.
+    PlacedCorners first;
+    for (int i = 0; i < 9; ++i) first.add(1 + float(i), 5);
+    first.add(19.5F, 5);
+    first.add(20.5F, 5);
+    first.add(19.5F, 20.5F);
+    const Correspondences pairs = first.pairs();
+    for (std::size_t i = 0; i < 10; ++i) EXPECT_NEAR(pairs.weight[i], 2.0 / 10, 1e-6) << i;
+    EXPECT_NEAR(pairs.weight[10], 1, 1e-6);
+    EXPECT_NEAR(pairs.weight[11], 1, 1e-6);
+    // Nine in each of two cells, one in each of two others: of the two in the middle the larger counts.
+    PlacedCorners even;
+    for (int i = 0; i < 9; ++i) {
+        even.add(1 + float(i), 5);
+        even.add(101 + float(i), 105);
+    }
+    even.add(205, 5);
+    even.add(205, 205);
+    for (const float weight : even.pairs().weight) EXPECT_NEAR(weight, 1, 1e-6);
+}
+
 }  // namespace eyrie::corner_weights_test

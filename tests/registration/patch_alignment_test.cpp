@@ -218,4 +218,73 @@ TEST(PatchAlignment, surroundingsDoNotReachForEver) {
     EXPECT_EQ(surrounding[0], 64 * picture.row(0)[0]);
 }
 
+namespace {
+
+/// 10 grey levels and the square of the distance from a point: there each step of the alignment is exact, as the
+/// difference to the patch is 2 d · u and a constant.
+PaddedPicture bowl(cv::Size size, cv::Point centre) {
+    cv::Mat gray(size, CV_8UC1);
+    for (int y = 0; y < size.height; ++y) {
+        for (int x = 0; x < size.width; ++x) {
+            const cv::Point u = cv::Point(x, y) - centre;
+            gray.at<std::uint8_t>(y, x) = cv::saturate_cast<std::uint8_t>(10 + u.dot(u));
+        }
+    }
+    return padded(gray);
+}
+
+PatchTemplate patchOfBowl() {
+    std::vector<std::int16_t> samples(std::size_t(patchSamples(5)));
+    cutPatch(bowl({21, 21}, {10, 10}), {10, 10}, 5, samples.data());
+    PatchTemplate patch(5);
+    EXPECT_TRUE(patch.prepare(samples.data()));
+    return patch;
+}
+
+}  // namespace
+
+TEST(PatchAlignment, ofABowlAllIsKnown) {
+    // Weights of columns and rows exp(-1.5 (u / 3)²): 1, 0.8465, 0.5134, together 3.7198. The mean of u² is
+    // (2 · 0.8465 + 2 · 4 · 0.5134) / 3.7198 = 1.5593, that of u⁴ 4.8719.
+    const PatchTemplate patch = patchOfBowl();
+    EXPECT_NEAR(patch.contrast(), 2 * (4.8719 - 1.5593 * 1.5593), 2e-3);
+    // Gradients of 2 u; the weights are worth (3.7198² / 2.9603)² = 21.85 pixels.
+    EXPECT_NEAR(patch.positionVariance(), 2 / (4 * 1.5593) / 21.85, 2e-5);
+    const PaddedPicture to = bowl({17, 17}, {6, 8});
+    AlignmentLimits limits;
+    limits.max_iterations = 1;
+    const Alignment once = align(patch, to, {5, 8}, limits);
+    EXPECT_TRUE(once.found);
+    EXPECT_EQ(once.iterations, 1);
+    EXPECT_NEAR(once.position.x, 6, 1e-3);
+    EXPECT_NEAR(once.position.y, 8, 1e-3);
+    EXPECT_NEAR(once.residual, 4 * 1.5593, 2e-3) << "of the place it came from: (2 u)²";
+    const Alignment whole = align(patch, to, {7.25F, 6.5F}, {});
+    EXPECT_TRUE(whole.found);
+    EXPECT_EQ(whole.iterations, 2) << "the second only finds that all is well";
+    EXPECT_NEAR(whole.position.x, 6, 1e-3);
+    EXPECT_NEAR(whole.position.y, 8, 1e-3);
+    EXPECT_NEAR(whole.residual, 0, 1e-3);
+}
+
+TEST(PatchAlignment, aLastStepOutOfThePictureIsNotFound) {
+    // Half a window are 2 px; the bowl's middle is a pixel from the border, the start 2.2 px.
+    const PatchTemplate patch = patchOfBowl();
+    AlignmentLimits limits;
+    limits.max_iterations = 1;
+    const auto ends = [&](cv::Size size, cv::Point centre, cv::Point2f start) {
+        const Alignment ended = align(patch, bowl(size, centre), start, limits);
+        EXPECT_EQ(ended.iterations, 1) << centre;
+        EXPECT_NEAR(ended.position.x, centre.x, 2e-3);
+        EXPECT_NEAR(ended.position.y, centre.y, 2e-3);
+        return ended.found;
+    };
+    EXPECT_FALSE(ends({13, 17}, {1, 8}, {2.2F, 8}));
+    EXPECT_FALSE(ends({13, 17}, {11, 8}, {9.8F, 8}));
+    EXPECT_FALSE(ends({17, 13}, {8, 1}, {8, 2.2F}));
+    EXPECT_FALSE(ends({17, 13}, {8, 11}, {8, 9.8F}));
+    EXPECT_TRUE(ends({13, 17}, {3, 8}, {2.2F, 8}));
+    EXPECT_TRUE(ends({17, 13}, {8, 9}, {8, 9.8F}));
+}
+
 }  // namespace eyrie::patch_alignment_test

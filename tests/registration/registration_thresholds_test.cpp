@@ -84,6 +84,8 @@ TEST(RegistrationThresholds, MetresBecomePixelsWithinWhatPixelsAllow) {
     EXPECT_NEAR(spacing("registration.corner_spacing", "3", 3), RegistrationOptions().corners.min_corner_distance,
                 1e-9);
     EXPECT_NEAR(spacing("registration.min_corner_distance", "5", 3), 5, 1e-9);
+    EXPECT_NEAR(spacing("registration.corner_spacing", "6.3", 0.1), 63, 1e-9);
+    EXPECT_NEAR(spacing("registration.corner_spacing", "20", 0.1), 64, 1e-9) << "however fine the picture";
 }
 
 TEST(RegistrationThresholds, MaxSpeedIsHowFarACornerMayGo) {

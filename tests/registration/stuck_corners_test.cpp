@@ -76,6 +76,7 @@ TEST(StuckCorners, OnDirtAreFoundAndLeftOut) {
     EXPECT_GT(kept.on_dirt, 10) << "the scene has dirt with corners";
     EXPECT_LT(left_out.on_dirt, 0.3 * kept.on_dirt);
     EXPECT_LT(left_out.error, std::max(0.03, 1.1 * kept.error));
+    EXPECT_GT(left_out.corners, 0.5 * kept.corners) << "only those on dirt";
 }
 
 TEST(StuckCorners, AreNoneOnACleanLens) {
@@ -113,6 +114,68 @@ TEST(StuckCorners, AVehicleThatTheCameraFollowsIsNone) {
             on_vehicle += corner.age > 2 && cv::Rect(at, cv::Size(22, 11)).contains(cv::Point(corner.current));
     }
     EXPECT_GT(on_vehicle, kDirtyFrames - kAfter);
+}
+
+namespace {
+
+/// One corner, and how it is found again while the ground moves.
+struct HeldCorner {
+    explicit HeldCorner(bool leave_out = true) : tracker(optionsFor(leave_out), test::scaleOf(0.3)) {
+        picture.build(test::TexturedGround(5).picture({160, 120}, cv::Matx33d::eye(), 0, 1));
+        CornerId next_id = 1;
+        tracker.add(set, {{80, 60}}, picture.smooth(), next_id);
+    }
+    /// How often `step` is called until the corner is stuck; 0: never in 60 times.
+    int stepsUntilStuck(cv::Point2d ground, int frames = 1) {
+        for (int count = 1; count <= 60; ++count)
+            if (step(ground, {0, 0}, frames)) return count;
+        return 0;
+    }
+    /// The ground moves, the corner is found beside where it was in the picture; whether it is stuck now.
+    bool step(cv::Point2d ground, cv::Point2f beside = {0, 0}, int frames = 1) {
+        EXPECT_EQ(set.size(), 1);
+        if (set.size() != 1) return false;
+        TrackedPosition found;
+        found.found = true;
+        found.contrast = 100;
+        found.position = set.corners[0].position + beside;
+        found.offset = set.corners[0].offset + beside;
+        HomographyFit fit;
+        fit.matrix = {1, 0, ground.x, 0, 1, ground.y, 0, 0, 1};
+        fit.inlier_distance_px = 1;
+        tracker.advance(set, {found}, fit, picture.smooth(), frames, 1);
+        return set.size() == 1 && set.corners[0].sticks;
+    }
+
+    static TrackingOptions optionsFor(bool leave_out) {
+        TrackingOptions options;
+        options.leave_out_stuck = leave_out;
+        options.max_jerk = 50;
+        return options;
+    }
+
+    CornerTracker tracker;
+    CornerSet set{tracker.window()};
+    ImagePyramid picture;
+};
+
+}  // namespace
+
+TEST(StuckCorners, AreKnownAfter24FramesOverMoreThan12PixelsOfGround) {
+    EXPECT_EQ(HeldCorner().stepsUntilStuck({1, 0}), 24) << "24 px";
+    EXPECT_EQ(HeldCorner().stepsUntilStuck({0, -0.5}), 25) << "12.5 px; 12 are not enough";
+    EXPECT_EQ(HeldCorner().stepsUntilStuck({0.25, 0}), 49) << "12.25 px";
+    EXPECT_EQ(HeldCorner().stepsUntilStuck({2, 0}, 2), 12) << "every other frame was lost";
+    EXPECT_EQ(HeldCorner(false).stepsUntilStuck({1, 0}), 0) << "nobody asked";
+}
+
+TEST(StuckCorners, StaySoUntilTheyMoveByMoreThanAPixelAndAHalf) {
+    HeldCorner corner;
+    ASSERT_EQ(corner.stepsUntilStuck({1, 0}), 24);
+    for (int i = 0; i < 24; ++i) EXPECT_TRUE(corner.step({-1, 0})) << "though the ground came back";
+    EXPECT_TRUE(corner.step({1, 0}, {1.4F, 0}));
+    EXPECT_FALSE(corner.step({1, 0}, {0.2F, 0})) << "1.6 px from where it stuck";
+    EXPECT_EQ(corner.stepsUntilStuck({1, 0}), 24) << "and all begins anew";
 }
 
 }  // namespace eyrie::stuck_corners_test

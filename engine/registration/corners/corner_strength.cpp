@@ -218,7 +218,7 @@ cv::Point2f refineCorner(const PaddedPicture& picture, int x, int y) {
     }
     const double determinant = xx * yy - xy * xy;
     const cv::Point2f whole(static_cast<float>(x), static_cast<float>(y));
-    if (determinant <= 1e-4 * xx * yy || determinant <= 0) return whole;
+    if (determinant <= 1e-4 * xx * yy) return whole;
     const double sx = (yy * bx - xy * by) / determinant;
     const double sy = (xx * by - xy * bx) / determinant;
     if (std::abs(sx) > kFarthest || std::abs(sy) > kFarthest) return whole;

@@ -74,7 +74,7 @@ class Follower {
           movers_(movers),
           mover_velocities_(mover_velocities),
           fine_(set.window()),
-          coarse_(std::clamp(set.window() / 2 / 2 * 2 + 3, kSmallestWindow, 9)),
+          coarse_(set.window() / 4 * 2 + 3),  // 5 … 9 px
           coarse_samples_(std::size_t(patchSamples(coarse_.window()))) {}
 
     TrackedPosition follow(const TrackedCorner& corner, double noise, double max_residual, double max_step_px,

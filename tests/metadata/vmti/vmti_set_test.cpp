@@ -206,6 +206,61 @@ TEST(VmtiSet, BerAndOidNumbersTakeTheirShortestForm) {
     }
 }
 
+TEST(VmtiSet, NumbersTakeAsFewBytesAsHoldThem) {
+    EXPECT_EQ(klv::fewestBytes(0), test::bytesOfHex("00"));
+    EXPECT_EQ(klv::fewestBytes(255), test::bytesOfHex("ff"));
+    EXPECT_EQ(klv::fewestBytes(256), test::bytesOfHex("0100"));
+    EXPECT_EQ(klv::fewestBytes((std::uint64_t{1} << 56) - 1), test::bytesOfHex("ffffffffffffff"));
+    EXPECT_EQ(klv::fewestBytes(std::uint64_t{1} << 56), test::bytesOfHex("0100000000000000"));
+    EXPECT_EQ(klv::fewestBytes(UINT64_MAX), test::bytesOfHex("ffffffffffffffff"));
+    EXPECT_EQ(klv::unsignedBytes(258, 3), test::bytesOfHex("000102"));
+}
+
+TEST(VmtiSet, RangesAreWrittenAsSt1201Says) {
+    const auto speed = [](double m_s) { return klv::imapbBytes(m_s, -900, 900, 2); };
+    // 1800 takes eleven bits: 2^(15 − 11) = 16 steps a unit from −900 on.
+    EXPECT_EQ(speed(0), test::bytesOfHex("3840"));      // 14400
+    EXPECT_EQ(speed(-12.5), test::bytesOfHex("3778"));  // 14200
+    EXPECT_EQ(speed(1000), test::bytesOfHex("7080"));   // 28800: what lies beyond is clamped
+    EXPECT_EQ(speed(-1000), test::bytesOfHex("0000"));
+    // 64 steps a unit; 0 is met exactly: 57.6 steps above the lower end, which is rounded down to 58 below.
+    EXPECT_EQ(klv::imapbBytes(0, -0.9, 0.7, 1), test::bytesOfHex("3a"));
+    // On one side of 0 there is nothing to meet: 128 · 0.505 = 64.64.
+    EXPECT_EQ(klv::imapbBytes(0.805, 0.3, 1.2, 1), test::bytesOfHex("40"));
+    EXPECT_EQ(klv::imapbBytes(-0.695, -1.2, -0.3, 1), test::bytesOfHex("40"));
+}
+
+TEST(VmtiSet, WhatLiesOutsideIsWrittenAsTheNearestThatIsAllowed) {
+    Frame frame;
+    frame.utc_us = 1;
+    frame.size = {64, 48};
+    Target target;
+    target.centre = {70, -3};
+    target.top_left = {-5, 50};
+    target.bottom_right = {70, 50};
+    target.confidence_percent = 150;
+    target.seen_before = 70'000;
+    frame.targets = {target};
+    const Packed bytes = packed(frame);
+    const auto read = framesIn(bytes);
+    ASSERT_EQ(read.size(), 1U);
+    ASSERT_EQ(read[0].targets.size(), 1U);
+    EXPECT_EQ(read[0].targets[0].centre, cv::Point(63, 0));
+    EXPECT_EQ(read[0].targets[0].top_left, cv::Point(0, 47));
+    EXPECT_EQ(read[0].targets[0].bottom_right, cv::Point(63, 47));
+    EXPECT_EQ(read[0].targets[0].confidence_percent, 100);
+    EXPECT_EQ(read[0].targets[0].seen_before, 65'535);
+    const auto holds = [](const Packed& all, const char* hex) {
+        const Packed part = test::bytesOfHex(hex);
+        return std::search(all.begin(), all.end(), part.begin(), part.end()) != all.end();
+    };
+    EXPECT_TRUE(holds(bytes, "130101140140")) << "row 1, column 64";
+    frame.targets[0].centre = {-1, 60};
+    frame.targets[0].confidence_percent = -5;
+    EXPECT_TRUE(holds(packed(frame), "130130140101")) << "row 48, column 1";
+    EXPECT_EQ(framesIn(packed(frame)).at(0).targets.at(0).confidence_percent, 0);
+}
+
 TEST(VmtiSet, AnyFlippedByteIsNoticed) {
     const Packed good = packed(street());
     for (std::size_t at = 17; at < good.size(); ++at) {
