@@ -1,6 +1,7 @@
 // What a registrar does with frames whose motion and corners are known from how they were made.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 
 #include "registration/flight.h"
@@ -61,7 +62,7 @@ TEST(RegistrarByHand, AfterAFrozenFrameACameraMayHaveGoneOnAsFarAsItWouldHave) {
 }
 
 /// What a camera is expected to do through a freeze has an end: 40 steps of 7 px would lead out of the picture.
-TEST(RegistrarByHand, ThroughALongFreezeACameraIsExpectedToGoOnForTwentyFrames) {
+TEST(RegistrarByHand, WhatACameraIsExpectedToDoThroughAFreezeHasAnEnd) {
     const cv::Size size(320, 160);
     const cv::Matx33d step = shift(7, 0);
     Watch watch(withoutFeatures());
@@ -141,13 +142,15 @@ TEST(RegistrarByHand, CornersThatDoNotAgreeAreCounted) {
 /// Of other ground only a strip is seen, the rest is haze. The usual number is a mean that follows slowly.
 TEST(RegistrarByHand, APictureIsBlurredThatHasLessThan35PercentOfTheUsualCorners) {
     const cv::Matx33d step = shift(3, 1);
-    int just_clear = 0, blurred = 0;
-    for (const int strip : {16, 32, 48, 64, 80}) {
-        cv::Mat haze = test::TexturedGround(99, 0).picture(kSmall, cv::Matx33d::eye(), 2, 1);
-        test::TexturedGround(99, 1.5)
-            .picture(kSmall, cv::Matx33d::eye(), 2, 2)
-            .colRange(40, 40 + strip)
-            .copyTo(haze.colRange(40, 40 + strip));
+    constexpr double kLimit = 0.35;
+    int just_clear = 0, blurred = 0, blank = 0;
+    for (const int strip : {0, 16, 32, 48, 64, 80}) {
+        cv::Mat haze = test::TexturedGround(99, 0).picture(kSmall, cv::Matx33d::eye(), strip > 0 ? 2 : 0, 1);
+        if (strip > 0)
+            test::TexturedGround(99, 1.5)
+                .picture(kSmall, cv::Matx33d::eye(), 2, 2)
+                .colRange(40, 40 + strip)
+                .copyTo(haze.colRange(40, 40 + strip));
         const int seen = cornersOf(Watch(withoutFeatures()).seePicture(haze));
         Watch watch(withoutFeatures());
         Flight flight(kSmall);
@@ -161,9 +164,12 @@ TEST(RegistrarByHand, APictureIsBlurredThatHasLessThan35PercentOfTheUsualCorners
         const RegistrationFailure& failure = frame.registration.failure;
         EXPECT_EQ(cornersOf(frame), seen);
         const cv::Matx33d& guess = frame.registration.current_from_previous.matrix;
-        if (seen < 16) {
-            EXPECT_EQ(failure.picture, PictureQuality::blank);
-        } else if (seen < 0.35 * usual) {
+        if (seen < RegistrationOptions().homography.min_inliers) {
+            EXPECT_EQ(failure.picture, PictureQuality::blank) << strip;
+            ++blank;
+        } else if (std::abs(seen - kLimit * usual) < 0.02 * usual) {
+            continue;  // a corner more or fewer decides
+        } else if (seen < kLimit * usual) {
             EXPECT_EQ(failure.picture, PictureQuality::blurred) << strip;
             EXPECT_NE(failure.fault, RegistrationFault::cut);
             EXPECT_LT(gridError(guess, step, kSmall), 0.2) << "the camera goes on";
@@ -175,6 +181,7 @@ TEST(RegistrarByHand, APictureIsBlurredThatHasLessThan35PercentOfTheUsualCorners
             just_clear += seen < 0.5 * usual;
         }
     }
+    EXPECT_GT(blank, 0);
     EXPECT_GT(blurred, 0);
     EXPECT_GT(just_clear, 0);
 }

@@ -17,6 +17,8 @@ struct CanvasPlace {
     const ViewTransform& transform;
     const QImage& image;  ///< the picture shown; may be null
     QRectF view;          ///< logical px
+    /// Keys moved the cross there, not a hand the mouse: it does not shake, and each of its steps is meant.
+    bool by_keys = false;
 };
 
 /// Something that is done with the mouse on the canvas, or with keys that stand for it (KeyPointer), and what it draws
@@ -41,6 +43,8 @@ class CanvasTool {
     virtual bool dragsFrom(QPointF, const CanvasPlace&) const { return false; }
     /// Takes the last place back, if it has any; answers whether it did.
     virtual bool takeBack() { return false; }
+    /// Enter was pressed while no cross is shown: ends what is drawn, if it can be; answers whether Enter meant that.
+    virtual bool finishByKey() { return false; }
 };
 
 }  // namespace eyrie::ui

@@ -66,11 +66,12 @@ void KeyPointer::hide() {
 }
 
 void KeyPointer::forget() {
-    set_at_.reset();
+    forgetPlace();
     holds_ = false;
 }
 
 QPointF KeyPointer::moveBy(QPointF step, const QRectF& view) {
+    forgetPlace();
     const QPointF wanted = *at_ + step;
     at_ = QPointF(std::clamp(wanted.x(), view.left(), view.right()), std::clamp(wanted.y(), view.top(), view.bottom()));
     return wanted - *at_;
@@ -91,8 +92,7 @@ void KeyPointer::set(const QKeyEvent& key, CanvasTool& tool, const CanvasPlace& 
         let_go();
         return;
     }
-    const bool again = set_at_ == at;
-    set_at_ = again ? std::nullopt : std::optional(at);
+    const bool again = std::exchange(set_here_, !set_here_);
     if (tool.dragsFrom(at, place)) {
         holds_ = true;
         tool.press(asMouse(QEvent::MouseButtonPress, at, Qt::LeftButton, Qt::LeftButton, keys), place);
@@ -120,7 +120,7 @@ void KeyPointer::paint(QPainter& painter) const {
 QString KeyPointer::hint() const {
     const auto words = [](const char* text) { return QCoreApplication::translate("eyrie::ui::KeyPointer", text); };
     if (holds_) return words(QT_TR_NOOP("Arrow keys: move · Enter or Space: release here"));
-    if (at_) return words(QT_TR_NOOP("Enter or Space: click here; again in the same place: double-click"));
+    if (at_) return words(QT_TR_NOOP("Enter or Space: click here; again without moving: double-click"));
     return words(QT_TR_NOOP("Arrow keys: move a cross (Shift: 10 px), to click with Enter or Space"));
 }
 

@@ -25,6 +25,7 @@ constexpr double kWheelStep = 1.25;
 constexpr double kDragThreshold = 4;
 constexpr double kHitMargin = 4;  ///< logical px around a box that still count as hit
 constexpr double kInspectedWidth = 2.2;
+constexpr double kHintRoom = 80;  ///< logical px at the lower edge that what a tool wants may cover
 }  // namespace
 
 VideoView::VideoView(OverlaySettings& settings, QWidget* parent) : QWidget(parent), settings_(settings) {
@@ -40,6 +41,7 @@ VideoView::VideoView(OverlaySettings& settings, QWidget* parent) : QWidget(paren
 VideoView::~VideoView() = default;
 
 void VideoView::setFrame(ViewFrame frame) {
+    if (frame.index != frame_.index) pointer_.forgetPlace();
     frame_ = std::move(frame);
     adoptSize();
     update();
@@ -119,7 +121,7 @@ void VideoView::setBadgeOnRight(bool on_right) {
 
 void VideoView::setTool(CanvasTool* tool) {
     tool_ = tool;
-    pointer_.hide();
+    hideKeyPointer();
     updateCursorShape();
     update();
 }
@@ -127,7 +129,7 @@ void VideoView::setTool(CanvasTool* tool) {
 bool VideoView::toolTakes(bool (CanvasTool::*handler)(const QMouseEvent&, const CanvasPlace&),
                           const QMouseEvent& event) {
     if (tool_ == nullptr || space_held_) return false;
-    const bool taken = (tool_->*handler)(event, {transform_, frame_.image, QRectF(rect())});
+    const bool taken = (tool_->*handler)(event, place());
     if (!drag_from_) updateCursorShape();
     return taken;
 }
@@ -140,13 +142,31 @@ std::optional<QPointF> VideoView::keyPointer() const {
     return toolTakesKeys() ? pointer_.at() : std::nullopt;
 }
 
+void VideoView::hideKeyPointer() {
+    if (!pointer_.at()) return;
+    pointer_.hide();
+    emit cursorMoved(std::nullopt);
+    update();
+}
+
+CanvasPlace VideoView::place(bool by_keys) const {
+    return {transform_, frame_.image, QRectF(rect()), by_keys};
+}
+
+bool VideoView::finishesByKey(const QKeyEvent& key) {
+    const bool enter = key.key() == Qt::Key_Return || key.key() == Qt::Key_Enter;
+    const bool plain = (key.modifiers() & ~Qt::KeypadModifier) == Qt::NoModifier;
+    // Where the cross is, Enter sets a place as a click does.
+    return enter && plain && !pointer_.at() && tool_->finishByKey();
+}
+
 bool VideoView::takesToolKey(const QKeyEvent& key) {
     if (!toolTakesKeys() || !KeyPointer::owns(key)) return false;
     if (const auto step = KeyPointer::stepOf(key)) {
         movePointer(*step);
     } else if (key.key() == Qt::Key_Backspace) {
         if (tool_->takeBack()) pointer_.forget();
-    } else if (!key.isAutoRepeat()) {
+    } else if (!key.isAutoRepeat() && !finishesByKey(key)) {
         setByKey(key);
     }
     update();
@@ -160,14 +180,14 @@ void VideoView::movePointer(QPointF step) {
         transform_.panBy(-beyond);
         transformWasChanged();
     }
-    pointer_.point(*tool_, {transform_, frame_.image, QRectF(rect())});
+    pointer_.point(*tool_, place(true));
     reportCursor(*pointer_.at());
 }
 
 void VideoView::setByKey(const QKeyEvent& key) {
     // The first one shows where it would be.
     if (pointer_.at())
-        pointer_.set(key, *tool_, {transform_, frame_.image, QRectF(rect())});
+        pointer_.set(key, *tool_, place(true));
     else
         pointer_.showAt(anchor());
     updateCursorShape();
@@ -175,9 +195,9 @@ void VideoView::setByKey(const QKeyEvent& key) {
 }
 
 void VideoView::mouseTakesOver() {
-    if (!pointer_.at()) return;
-    pointer_.hide();
-    update();
+    // What keys took hold of would be held for ever: nobody lets it go.
+    if (pointer_.holds() && tool_ != nullptr) tool_->takeBack();
+    hideKeyPointer();
 }
 
 void VideoView::fit() {
@@ -234,6 +254,7 @@ QPointF VideoView::anchor() const {
 }
 
 void VideoView::transformWasChanged() {
+    pointer_.forgetPlace();
     update();
     emit transformChanged();
 }
@@ -278,12 +299,14 @@ void VideoView::paint(QPainter& painter) const {
 }
 
 void VideoView::paintTool(QPainter& painter) const {
-    const CanvasPlace place{transform_, frame_.image, QRectF(rect())};
-    tool_->paint(painter, place);
+    const CanvasPlace shown = place();
+    tool_->paint(painter, shown);
     if (!tool_->takesPlaces()) return;
     pointer_.paint(painter);
-    const QString wanted = tool_->hint(place);
-    paintToolHint(painter, place.view,
+    const QString wanted = tool_->hint(shown);
+    // Where one works the hint would be in the way.
+    const auto edge = anchor().y() > height() - kHintRoom ? HintEdge::upper : HintEdge::lower;
+    paintToolHint(painter, shown.view, edge,
                   wanted.isEmpty() ? pointer_.hint() : wanted + QLatin1Char('\n') + pointer_.hint());
 }
 
@@ -397,6 +420,7 @@ void VideoView::mousePressEvent(QMouseEvent* event) {
 void VideoView::mouseMoveEvent(QMouseEvent* event) {
     mouseTakesOver();
     reportCursor(event->position());
+    if (toolTakesKeys()) update();  // the hint makes way
     if (toolTakes(&CanvasTool::move, *event)) return;
     if (!drag_from_) return;
     if (!dragged_ && QLineF(pressed_at_, event->position()).length() < kDragThreshold) return;
@@ -470,6 +494,7 @@ void VideoView::contextMenuEvent(QContextMenuEvent* event) {
 
 void VideoView::leaveEvent(QEvent*) {
     if (tool_ != nullptr) tool_->leave();
+    if (toolTakesKeys()) update();
     emit cursorMoved(std::nullopt);
 }
 

@@ -54,6 +54,8 @@ class VideoView : public QWidget {
     CanvasTool* tool() const { return tool_; }
     /// Where the cross is that keys move while a tool takes places, view coordinates; nothing while there is none.
     std::optional<QPointF> keyPointer() const;
+    /// Takes the cross away, as when a tool that stays has ended what it wanted places for.
+    void hideKeyPointer();
 
     const ViewTransform& transform() const { return transform_; }
     void fit();
@@ -114,9 +116,11 @@ class VideoView : public QWidget {
     void adoptSize();
     void transformWasChanged();
     void reportCursor(QPointF view_point);
+    CanvasPlace place(bool by_keys = false) const;
     QPointF anchor() const;
     bool toolTakesKeys() const;
     bool takesToolKey(const QKeyEvent& key);
+    bool finishesByKey(const QKeyEvent& key);
     void movePointer(QPointF step);
     void setByKey(const QKeyEvent& key);
     void mouseTakesOver();

@@ -182,8 +182,8 @@ void LabelWorkspace::pictureChanged() {
 void LabelWorkspace::wireTool() {
     connect(tool_, &LabelTool::repaintNeeded, &around_.canvas, qOverload<>(&QWidget::update));
     tool_->setCommands({
-        .show_drawing = [this](bool drawing) { actions_->draw->setChecked(drawing); },
-        .show_region_drawing = [this](bool drawing) { actions_->region->setChecked(drawing); },
+        .show_drawing = [this](bool drawing) { showDrawing(*actions_->draw, drawing); },
+        .show_region_drawing = [this](bool drawing) { showDrawing(*actions_->region, drawing); },
         .add_region = std::bind_front(&LabelEditor::addRegion, editor_),
         .add_box = std::bind_front(&LabelEditor::add, editor_),
         .redraw_box = [this](ObjectId id, FrameIndex frame,
@@ -198,6 +198,11 @@ void LabelWorkspace::wireTool() {
         .choose_object = [this](std::optional<ObjectId> id, bool add) { chooseObject(id, add); },
         .choose_proposal = [this](TrackId track, bool add) { chooseProposal(track, add); },
     });
+}
+
+void LabelWorkspace::showDrawing(QAction& action, bool drawing) {
+    action.setChecked(drawing);
+    around_.canvas.hideKeyPointer();  // the tool stays, and the next drawing begins anew
 }
 
 void LabelWorkspace::chooseObject(std::optional<ObjectId> id, bool add) {

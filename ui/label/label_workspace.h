@@ -56,6 +56,7 @@ class LabelWorkspace : public QObject {
     void buildMenu();
     void wireLabels();
     void wireTool();
+    void showDrawing(QAction& action, bool drawing);
     void chooseObject(std::optional<ObjectId> id, bool add);
     void chooseProposal(TrackId track, bool add);
     void buildWork();

@@ -458,11 +458,9 @@ void ProjectSession::selectTrack(std::optional<TrackId> track) {
 
 void ProjectSession::goToTrack(TrackId track) {
     selectTrack(track);
-    if (!run_data_) return;
-    const auto& tracks = run_data_->tracks;
-    const auto found = std::find_if(tracks.begin(), tracks.end(), [&](const TrackSummary& t) { return t.id == track; });
-    if (found == tracks.end()) return;
-    if (current_frame_ < found->first_frame || current_frame_ > found->last_frame) goToFrame(found->first_frame);
+    const TrackSummary* life = trackSummary(track);
+    if (life == nullptr) return;
+    if (current_frame_ < life->first_frame || current_frame_ > life->last_frame) goToFrame(life->first_frame);
 }
 
 }  // namespace eyrie::ui

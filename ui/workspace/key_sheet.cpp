@@ -124,7 +124,8 @@ void KeySheet::fill(const QString& first) {
          {{tr("Move a cross over the picture by 1 px"), tr("Arrow keys")},
           {tr("Move the cross by 10 px"), tr("Shift and an arrow key")},
           {tr("Click at the cross; begin and end a box"), tr("Enter or Space")},
-          {tr("Double-click at the cross"), tr("Enter or Space again in the same place")},
+          {tr("Double-click at the cross"), tr("Enter or Space again without moving")},
+          {tr("End a zone, a line or control points"), tr("Enter, while no cross is shown")},
           {tr("Take the last point back"), tr("Backspace")},
           {tr("Cancel"), tr("Esc")}});
     told(tr("Mouse"), {{tr("Zoom to the cursor"), tr("Wheel")},

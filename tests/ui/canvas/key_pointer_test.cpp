@@ -6,6 +6,7 @@
 #include <QSignalSpy>
 #include <QTest>
 #include <cmath>
+#include <optional>
 
 #include "canvas/canvas_tool.h"
 #include "canvas/video_view.h"
@@ -28,10 +29,13 @@ class RecordingTool : public CanvasTool {
     bool takesPlaces() const override { return takes_places; }
     bool dragsFrom(QPointF, const CanvasPlace&) const override { return drags; }
     bool takeBack() override { return note("back"); }
+    bool finishByKey() override { return finishes && note("finish"); }
+    QString hint(const CanvasPlace&) const override { return QStringLiteral("Click somewhere"); }
 
     QStringList told;  ///< all but moves
     QPointF last_place;
     Qt::MouseButtons last_buttons;
+    bool finishes = false;
     bool takes_places = true;
     bool drags = false;
 
@@ -61,11 +65,15 @@ class KeyPointerTest : public QObject {
         explicit Canvas(QColor ground = Qt::gray) {
             view.resize(400, 300);
             view.show();
+            show(0, ground);
+            view.setTool(&tool);
+        }
+        void show(FrameIndex index, QColor ground = Qt::gray) {
             ViewFrame frame;
+            frame.index = index;
             frame.image = QImage(200, 150, QImage::Format_RGB32);
             frame.image.fill(ground);
             view.setFrame(frame);
-            view.setTool(&tool);
         }
         void key(Qt::Key key, Qt::KeyboardModifiers modifiers = {}) { QTest::keyClick(&view, key, modifiers); }
         /// Whether the canvas keeps a key from commands that have it.
@@ -110,6 +118,97 @@ class KeyPointerTest : public QObject {
         canvas.key(Qt::Key_Enter);
         QCOMPARE(canvas.tool.told, QStringList({"double", "release"}));
         QCOMPARE(played.count(), 0);
+    }
+
+    void whereThePictureMovedUnderItEnterIsNoDoubleClick() {
+        const QStringList two_clicks{"press", "release", "press", "release"};
+        Canvas canvas;
+        canvas.view.restore(8, {100, 75});
+        for (int i = 0; i < 45; ++i) canvas.key(Qt::Key_Left, Qt::ShiftModifier);
+        const QPointF edge = *canvas.view.keyPointer();
+        QCOMPARE(edge.x(), 0.0);
+        canvas.key(Qt::Key_Return);
+        const QPointF before = canvas.view.transform().imageFromView(edge);
+        canvas.key(Qt::Key_Left);  // the picture comes to meet it
+        QCOMPARE(*canvas.view.keyPointer(), edge);
+        QVERIFY(canvas.view.transform().imageFromView(edge) != before);
+        canvas.key(Qt::Key_Return);
+        QCOMPARE(canvas.tool.told, two_clicks);
+        canvas.tool.told.clear();
+        canvas.key(Qt::Key_Right);
+        canvas.key(Qt::Key_Return);
+        canvas.view.centreOn({80, 75});
+        canvas.key(Qt::Key_Return);
+        QCOMPARE(canvas.tool.told, two_clicks);
+    }
+
+    void inAnotherFrameEnterIsNoDoubleClick() {
+        Canvas canvas;
+        canvas.key(Qt::Key_Right);
+        canvas.key(Qt::Key_Return);
+        canvas.show(1);
+        canvas.key(Qt::Key_Return);
+        QCOMPARE(canvas.tool.told, QStringList({"press", "release", "press", "release"}));
+        canvas.show(1);  // the same once more, as when its results came
+        canvas.key(Qt::Key_Return);
+        QCOMPARE(canvas.tool.told.mid(4), QStringList({"double", "release"}));
+    }
+
+    void whatIsHeldIsHeldThroughAMoveOfThePicture() {
+        Canvas canvas;
+        canvas.tool.drags = true;
+        canvas.key(Qt::Key_Right);
+        canvas.key(Qt::Key_Return);
+        canvas.view.zoomBy(2);
+        canvas.show(1);
+        canvas.key(Qt::Key_Return);
+        QCOMPARE(canvas.tool.told, QStringList({"press", "release"}));
+    }
+
+    void enterEndsWhileNoCrossIsShown() {
+        Canvas canvas;
+        canvas.tool.finishes = true;
+        canvas.key(Qt::Key_Space);  // plays
+        canvas.key(Qt::Key_Return, Qt::ShiftModifier);
+        QVERIFY(canvas.tool.told.isEmpty());
+        QVERIFY(canvas.view.keyPointer());
+        canvas.key(Qt::Key_Return);
+        QCOMPARE(canvas.tool.told, QStringList({"press", "release"}));
+        canvas.view.hideKeyPointer();
+        canvas.tool.told.clear();
+        canvas.key(Qt::Key_Enter);
+        QCOMPARE(canvas.tool.told, QStringList({"finish"}));
+        QVERIFY(!canvas.view.keyPointer());
+        // What has nothing to end is shown where Enter would click.
+        canvas.tool.finishes = false;
+        canvas.key(Qt::Key_Enter);
+        QVERIFY(canvas.view.keyPointer());
+        QCOMPARE(canvas.tool.told, QStringList({"finish"}));
+    }
+
+    void theHintMakesWay() {
+        Canvas canvas;
+        canvas.view.restore(4, {100, 75});
+        /// How many rows of the middle the plate of the hint covers.
+        const auto covered = [&](int from, int to) {
+            const QImage picture = canvas.view.picture();
+            const double ratio = picture.devicePixelRatio();
+            int rows = 0;
+            for (int y = from; y < to; ++y) rows += qGray(picture.pixel((QPointF(200, y) * ratio).toPoint())) < 100;
+            return rows;
+        };
+        const auto go = [&](Qt::Key key) {
+            for (int i = 0; i < 40; ++i) canvas.key(key, Qt::ShiftModifier);
+            canvas.view.restore(4, {100, 75});
+        };
+        go(Qt::Key_Right);
+        go(Qt::Key_Up);
+        QCOMPARE(canvas.view.keyPointer()->y(), 0.0);
+        QCOMPARE(covered(0, 150), 0);
+        QVERIFY(covered(220, 300) > 5);
+        go(Qt::Key_Down);
+        QCOMPARE(covered(150, 300), 0);
+        QVERIFY(covered(0, 80) > 5);
     }
 
     void whatIsDraggedIsPressedByTheFirstEnterAndReleasedByTheSecond() {
@@ -158,6 +257,30 @@ class KeyPointerTest : public QObject {
         QTest::mouseMove(&canvas.view, {50, 60});
         QTest::mouseMove(&canvas.view, {55, 60});
         QVERIFY(!canvas.view.keyPointer());
+    }
+
+    void aMouseThatTakesOverDropsWhatKeysHold() {
+        Canvas canvas;
+        canvas.tool.drags = true;
+        canvas.key(Qt::Key_Right);
+        canvas.key(Qt::Key_Return);
+        QTest::mouseMove(&canvas.view, {150, 60});
+        QTest::mouseMove(&canvas.view, {155, 60});
+        QVERIFY(!canvas.view.keyPointer());
+        QCOMPARE(canvas.tool.told, QStringList({"press", "back"}));
+        canvas.key(Qt::Key_Right);
+        canvas.key(Qt::Key_Return);
+        QCOMPARE(canvas.tool.told.last(), QStringLiteral("press"));
+    }
+
+    void thePlaceUnderItIsTakenBackWhenItHides() {
+        Canvas canvas;
+        std::optional<QPointF> place;
+        connect(&canvas.view, &VideoView::cursorMoved, this, [&](std::optional<QPointF> point) { place = point; });
+        canvas.key(Qt::Key_Right);
+        QVERIFY(place);
+        canvas.view.setTool(nullptr);
+        QVERIFY(!place);
     }
 
     void itIsSeenOnBrightAndOnDarkGround() {

@@ -261,6 +261,48 @@ class LabelToolTest : public QObject {
         QVERIFY(polygon.empty());  // one corner is no region
     }
 
+    void aBoxAndARegionAreDrawnWithoutAMouse() {
+        Canvas canvas;
+        LabelScene scene;
+        scene.drawn_width = 7;
+        canvas.tool.setScene(scene);
+        const auto press = [&](Qt::Key key, int times = 1, Qt::KeyboardModifiers modifiers = {}) {
+            for (int i = 0; i < times; ++i) QTest::keyClick(&canvas.view, key, modifiers);
+        };
+        const auto place = [&] {
+            return canvas.view.transform().imageFromView(canvas.view.keyPointer().value_or(QPointF()));
+        };
+        QTest::mouseMove(&canvas.view, canvas.at(100, 75));  // the cross begins there
+        canvas.tool.startDrawing();
+        press(Qt::Key_Left);
+        const QPointF rear = place();
+        press(Qt::Key_Return);
+        press(Qt::Key_Right, 4, Qt::ShiftModifier);  // 40 px of the screen, 20 of the picture
+        QVERIFY(canvas.tool.draft());
+        press(Qt::Key_Return);
+        QCOMPARE(canvas.drawings, 1);
+        QVERIFY(near(canvas.drawn.length, 20, 1e-6) && near(canvas.drawn.width, 7, 1e-6));
+        QVERIFY(near(canvas.drawn.centre.x, rear.x() + 10, 1e-6) && near(canvas.drawn.centre.y, rear.y(), 1e-6));
+        QVERIFY(near(canvas.drawn.heading, 0, 1e-6));
+        canvas.tool.startRegion();
+        press(Qt::Key_Left);
+        const QPointF corner = place();
+        press(Qt::Key_Return);
+        press(Qt::Key_Left, 4, Qt::ShiftModifier);
+        press(Qt::Key_Return);
+        press(Qt::Key_Up, 2, Qt::ShiftModifier);
+        press(Qt::Key_Return);
+        press(Qt::Key_Backspace);
+        press(Qt::Key_Up, 2, Qt::ShiftModifier);
+        press(Qt::Key_Return);
+        QVERIFY(canvas.tool.drawingRegion());
+        press(Qt::Key_Return);  // once more without moving: done
+        QVERIFY(!canvas.tool.drawingRegion());
+        QCOMPARE(canvas.region.size(), std::size_t(3));
+        QVERIFY(near(canvas.region[0].x, corner.x(), 1e-6) && near(canvas.region[0].y, corner.y(), 1e-6));
+        QVERIFY(near(canvas.region[2].x, corner.x() - 20, 1e-6) && near(canvas.region[2].y, corner.y() - 20, 1e-6));
+    }
+
     void readOnlyLabelsHaveNoHandles() {
         Canvas canvas;
         const OrientedBox start = box(100, 75, 60, 40, 0);

@@ -74,6 +74,30 @@ class LabelWorkspaceTest : public QObject, test::Labelling {
         QCOMPARE(window->labelling().inspector().title(), QStringLiteral("car 1"));
     }
 
+    void theCrossOfADrawingThatEndedDoesNotComeBack() {
+        const auto window = labellingWindow(5);
+        QVERIFY(window);
+        const VideoView& canvas = window->canvas();
+        const auto& actions = window->labelling().actions();
+        QTest::mouseMove(&window->canvas(), at(*window, 60, 60));  // the cross begins there
+        actions.draw->trigger();
+        key(*window, Qt::Key_Right);
+        QVERIFY(canvas.keyPointer());
+        key(*window, Qt::Key_Return);
+        for (int i = 0; i < 4; ++i) key(*window, Qt::Key_Right, Qt::ShiftModifier);
+        key(*window, Qt::Key_Return);
+        QCOMPARE(window->labelling().labels().annotations().objects.size(), std::size_t(1));
+        actions.region->trigger();
+        QVERIFY(actions.region->isChecked());
+        QVERIFY(!canvas.keyPointer());
+        // Nor that of one that was given up for another.
+        key(*window, Qt::Key_Left);
+        QVERIFY(canvas.keyPointer());
+        actions.draw->trigger();
+        QVERIFY(actions.draw->isChecked());
+        QVERIFY(!canvas.keyPointer());
+    }
+
     void correctionsGoOnToWhatARunComputed() {
         const auto window = labellingWindow(30, true);
         QVERIFY(window);

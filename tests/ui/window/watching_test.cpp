@@ -204,6 +204,34 @@ class WatchingTest : public QObject {
         QVERIFY(canvas().tool() == nullptr);
     }
 
+    void distancesAreMeasuredWithoutAMouse() {
+        QTest::mouseMove(&canvas(), inView({60, 100}).toPoint());  // the cross begins there
+        actions().measure->trigger();
+        const auto place = [&] {
+            return canvas().transform().imageFromView(canvas().keyPointer().value_or(QPointF(-999, -999)));
+        };
+        QTest::keyClick(&canvas(), Qt::Key_Left);
+        const QPointF begin = place();
+        QTest::keyClick(&canvas(), Qt::Key_Return);
+        for (int i = 0; i < 10; ++i) QTest::keyClick(&canvas(), Qt::Key_Right, Qt::ShiftModifier);
+        const double metres = QLineF(begin, place()).length() * 0.25;
+        QTest::keyClick(&canvas(), Qt::Key_Return);
+        QVERIFY2(measured().endsWith(QStringLiteral(" m")), qPrintable(measured()));
+        QVERIFY2(std::abs(measured().section(QLatin1Char(' '), 0, 0).toDouble() - metres) < 0.2,
+                 qPrintable(measured()));
+        // From one frame to another, in the same place of the view.
+        QTest::keyClick(&canvas(), Qt::Key_Return);
+        QVERIFY(goTo(kAnchor + 25));
+        QTest::keyClick(&canvas(), Qt::Key_Return);
+        QVERIFY2(measured().contains(QStringLiteral("km/h")), qPrintable(measured()));
+        // Backspace takes the end back, and then the beginning.
+        QTest::keyClick(&canvas(), Qt::Key_Backspace);
+        QTest::keyClick(&canvas(), Qt::Key_Backspace);
+        QVERIFY(measured().contains(QStringLiteral("Click where to begin")));
+        QTest::keyClick(&canvas(), Qt::Key_Escape);
+        QVERIFY(!actions().measure->isChecked());
+    }
+
     void onlyWhatMovesIsPlayedWhereSwitchedOn() {
         QTest::keyClick(&canvas(), Qt::Key_Space, Qt::ControlModifier);
         QVERIFY(actions().only_moving->isChecked());

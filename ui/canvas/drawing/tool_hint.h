@@ -6,11 +6,13 @@
 
 namespace eyrie::ui {
 
-/// Says at the lower edge of a view what the tool at work wants.
-inline void paintToolHint(QPainter& painter, const QRectF& view, const QString& text) {
-    const QRectF room(view.left() + 10, view.top(), view.width() - 20, view.height() - 10);
-    const int flags = Qt::AlignHCenter | Qt::AlignBottom | Qt::TextWordWrap;
-    const QRectF plate = painter.fontMetrics().boundingRect(room.adjusted(10, 0, -10, -5).toRect(), flags, text);
+enum class HintEdge { lower, upper };
+
+/// Says at an edge of a view what the tool at work wants.
+inline void paintToolHint(QPainter& painter, const QRectF& view, HintEdge edge, const QString& text) {
+    const QRectF room = view.adjusted(20, 15, -20, -15);
+    const int flags = Qt::AlignHCenter | (edge == HintEdge::lower ? Qt::AlignBottom : Qt::AlignTop) | Qt::TextWordWrap;
+    const QRectF plate = painter.fontMetrics().boundingRect(room.toRect(), flags, text);
     painter.setPen(Qt::NoPen);
     painter.setBrush(QColor(12, 12, 14, 200));
     painter.drawRoundedRect(plate.adjusted(-10, -5, 10, 5), 4, 4);

@@ -16,9 +16,10 @@ namespace {
 const QColor kControl(255, 200, 40);
 const QColor kSuspect(255, 90, 80);
 const QColor kControlEdge(12, 12, 14);
-constexpr double kArm = 9;    ///< of the crosses, logical px
-constexpr double kReach = 9;  ///< of the mouse around a cross, logical px
-constexpr double kShake = 3;  ///< by which the mouse may move in a click, logical px
+constexpr double kArm = 9;          ///< of the crosses, logical px
+constexpr double kReach = 9;        ///< of the mouse around a cross, logical px
+constexpr double kShake = 3;        ///< by which the mouse may move in a click, logical px
+constexpr double kRounding = 0.01;  ///< by which keys may, logical px: they do not shake
 
 }  // namespace
 
@@ -30,7 +31,7 @@ ControlPointTool::~ControlPointTool() = default;
 
 void ControlPointTool::setMarks(std::vector<ControlPointMark> marks) {
     marks_ = std::move(marks);
-    dragged_.reset();
+    if (std::exchange(dragged_, std::nullopt)) pressed_px_.reset();  // what was held may be another now
     if (active_) canvas_.update();
 }
 
@@ -52,10 +53,23 @@ void ControlPointTool::end() {
     if (!active_) return;
     active_ = false;
     draft_.reset();
-    dragged_.reset();
-    pressed_at_.reset();
+    takeBack();
     if (canvas_.tool() == this) canvas_.setTool(nullptr);
     emit activeChanged();
+}
+
+bool ControlPointTool::takeBack() {
+    if (!std::exchange(pressed_px_, std::nullopt)) return false;
+    const std::optional<int> dragged = std::exchange(dragged_, std::nullopt);
+    for (ControlPointMark& mark : marks_)
+        if (mark.number == dragged) mark.px = held_px_;
+    canvas_.update();
+    return true;
+}
+
+bool ControlPointTool::finishByKey() {
+    end();
+    return true;
 }
 
 bool ControlPointTool::eventFilter(QObject* watched, QEvent* event) {
@@ -66,9 +80,7 @@ bool ControlPointTool::eventFilter(QObject* watched, QEvent* event) {
     const bool plain = key->modifiers() == Qt::NoModifier;
     const bool undoes = key->matches(QKeySequence::Undo) || (plain && key->key() == Qt::Key_Z);
     const bool redoes = key->matches(QKeySequence::Redo);
-    // Where keys point, Enter sets a point as a click does.
-    const bool enter = key->key() == Qt::Key_Return && !canvas_.keyPointer();
-    const bool ends = plain && (key->key() == Qt::Key_Escape || enter);
+    const bool ends = plain && key->key() == Qt::Key_Escape;
     if (!undoes && !redoes && !ends) return QObject::eventFilter(watched, event);
     event->accept();  // whatever these keys do otherwise, they belong to the points now
     if (override) return true;
@@ -94,16 +106,18 @@ const ControlPointMark* ControlPointTool::markAt(QPointF view_point, const Canva
 
 bool ControlPointTool::press(const QMouseEvent& event, const CanvasPlace& place) {
     if (event.button() != Qt::LeftButton) return false;
-    pressed_at_ = event.position();
+    pressed_px_ = place.transform.imageFromView(event.position());
     moved_ = false;
     const ControlPointMark* held = markAt(event.position(), place);
     dragged_ = held != nullptr ? std::optional(held->number) : std::nullopt;
+    if (held != nullptr) held_px_ = held->px;
     return true;
 }
 
 bool ControlPointTool::move(const QMouseEvent& event, const CanvasPlace& place) {
-    if (!pressed_at_) return (event.buttons() & Qt::MiddleButton) == 0;
-    moved_ = moved_ || QLineF(*pressed_at_, event.position()).length() > kShake;
+    if (!pressed_px_) return (event.buttons() & Qt::MiddleButton) == 0;
+    const QLineF way(place.transform.viewFromImage(*pressed_px_), event.position());
+    moved_ = moved_ || way.length() > (place.by_keys ? kRounding : kShake);
     if (!moved_) return true;
     for (ControlPointMark& mark : marks_)
         if (mark.number == dragged_) mark.px = place.transform.imageFromView(event.position());
@@ -112,13 +126,13 @@ bool ControlPointTool::move(const QMouseEvent& event, const CanvasPlace& place) 
 }
 
 bool ControlPointTool::release(const QMouseEvent& event, const CanvasPlace& place) {
-    if (event.button() != Qt::LeftButton || !pressed_at_) return event.button() != Qt::MiddleButton;
-    const QPointF down = *std::exchange(pressed_at_, std::nullopt);
+    if (event.button() != Qt::LeftButton || !pressed_px_) return event.button() != Qt::MiddleButton;
+    const QPointF down = *std::exchange(pressed_px_, std::nullopt);
     const std::optional<int> dragged = std::exchange(dragged_, std::nullopt);
     if (dragged && moved_) {
         commands_.move(*dragged, place.transform.imageFromView(event.position()));
     } else if (!dragged && !moved_) {
-        commands_.add(place.transform.imageFromView(down));
+        commands_.add(down);
     }
     return true;
 }

@@ -29,8 +29,8 @@ struct ControlPointCommands {
     std::function<void()> redo = [] {};
 };
 
-/// Sets control points on the canvas: a click adds one, dragging moves one, Z undoes, Escape ends it. Changes nothing
-/// itself.
+/// Sets control points on the canvas: a click adds one, dragging moves one, Z undoes, Escape or Enter ends it. Changes
+/// nothing itself.
 class ControlPointTool : public QObject, public CanvasTool {
     Q_OBJECT
 
@@ -61,6 +61,8 @@ class ControlPointTool : public QObject, public CanvasTool {
     bool dragsFrom(QPointF view_point, const CanvasPlace& place) const override {
         return markAt(view_point, place) != nullptr;
     }
+    bool takeBack() override;
+    bool finishByKey() override;
 
  signals:
     /// It began or ended.
@@ -77,8 +79,9 @@ class ControlPointTool : public QObject, public CanvasTool {
     std::vector<ControlPointMark> marks_;
     std::optional<QPointF> draft_;
     bool active_ = false;
-    std::optional<int> dragged_;         ///< number of the mark that the mouse holds
-    std::optional<QPointF> pressed_at_;  ///< view coordinates
+    std::optional<int> dragged_;         ///< number of the mark that is held
+    std::optional<QPointF> pressed_px_;  ///< px of the frame, while the button is down
+    QPointF held_px_;                    ///< where the mark that is held was
     bool moved_ = false;                 ///< by more than a hand shakes
 };
 

@@ -68,20 +68,21 @@ const EventKindMark& markOf(int listed_kind) {
 }
 
 QColor groupColour(EventGroup group, bool dark) {
-    // After Okabe and Ito's set, brighter or darker until letters of this colour could be read.
+    // After Okabe and Ito's set, shifted until letters can be read on them and eyes that lack a kind of cone tell them
+    // apart; the tests hold both.
     switch (group) {
         case EventGroup::passage:
-            return dark ? QColor(86, 180, 233) : QColor(0, 98, 160);
+            return dark ? QColor(75, 168, 222) : QColor(0, 103, 179);
         case EventGroup::standing:
-            return dark ? QColor(230, 159, 0) : QColor(150, 92, 0);
+            return dark ? QColor(230, 165, 20) : QColor(59, 37, 24);
         case EventGroup::way:
-            return dark ? QColor(255, 125, 80) : QColor(190, 60, 0);
+            return dark ? QColor(255, 116, 110) : QColor(185, 72, 16);
         case EventGroup::speed:
-            return dark ? QColor(240, 228, 66) : QColor(110, 100, 0);
+            return dark ? QColor(244, 232, 70) : QColor(66, 64, 0);
         case EventGroup::company:
-            return dark ? QColor(225, 150, 190) : QColor(160, 60, 120);
+            return dark ? QColor(238, 181, 215) : QColor(152, 54, 124);
         case EventGroup::zone:
-            return dark ? QColor(0, 200, 150) : QColor(0, 115, 85);
+            return dark ? QColor(4, 218, 158) : QColor(18, 101, 66);
         case EventGroup::unsearched:
             break;
     }

@@ -13,7 +13,8 @@ namespace eyrie::ui {
 /// Kinds that share a colour.
 enum class EventGroup { passage, standing, way, speed, company, zone, unsearched };
 
-/// What a kind is known by: colours tell groups apart with any colour vision; within a group, letters and shapes do.
+/// What a kind is known by: colours tell groups apart, also where one kind of cone is missing; letters and shapes tell
+/// what colours do not.
 struct EventKindMark {
     EventGroup group = EventGroup::unsearched;
     const char* letters = "";                ///< two, no other kind's

@@ -1,6 +1,7 @@
 #include "review/events/event_kinds_button.h"
 
 #include <QCheckBox>
+#include <QEvent>
 #include <QMenu>
 #include <QWidgetAction>
 
@@ -55,6 +56,11 @@ void EventKindsButton::showAll(bool shown) {
     shown_.fill(shown);
     refresh();
     emit edited();
+}
+
+void EventKindsButton::changeEvent(QEvent* event) {
+    if (event->type() == QEvent::PaletteChange) refresh();
+    QToolButton::changeEvent(event);
 }
 
 void EventKindsButton::refresh() {

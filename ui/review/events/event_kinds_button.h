@@ -29,6 +29,10 @@ class EventKindsButton : public QToolButton {
  signals:
     void edited();
 
+ protected:
+    /// Plates follow the theme.
+    void changeEvent(QEvent* event) override;
+
  private:
     void makeMenu();
     void refresh();

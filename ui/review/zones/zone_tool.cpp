@@ -15,7 +15,8 @@ namespace {
 
 const QColor kZoneDraft(255, 200, 40);
 const QColor kZoneEdge(12, 12, 14);
-constexpr double kSamePoint = 4;  ///< logical px: the second click of a double one is no point
+constexpr double kSamePoint = 4;     ///< logical px: the second click of a double one is no point
+constexpr double kSamePlace = 0.01;  ///< the same for keys, which do not shake: what is lost in rounding
 
 }  // namespace
 
@@ -68,21 +69,21 @@ bool ZoneTool::takeBack() {
     return true;
 }
 
+bool ZoneTool::finishByKey() {
+    if (points_.empty()) return false;
+    finish();
+    return true;
+}
+
 bool ZoneTool::eventFilter(QObject* watched, QEvent* event) {
     const bool override = event->type() == QEvent::ShortcutOverride;
     if (!shape_ || watched != &canvas_ || (!override && event->type() != QEvent::KeyPress))
         return QObject::eventFilter(watched, event);
     const auto* key = static_cast<QKeyEvent*>(event);
-    const int code = key->key();
-    const bool ends = code == Qt::Key_Return || code == Qt::Key_Enter;
-    // Where keys point, Enter sets a point as a click does, and a second one there ends it as a double click does.
-    const bool points = ends && canvas_.keyPointer().has_value();
-    if (key->modifiers() & ~Qt::KeypadModifier || points || !(ends || code == Qt::Key_Escape))
+    if (key->modifiers() & ~Qt::KeypadModifier || key->key() != Qt::Key_Escape)
         return QObject::eventFilter(watched, event);
-    event->accept();  // whatever these keys do otherwise, they belong to the drawing now
-    if (override) return true;
-    if (ends) finish();
-    if (code == Qt::Key_Escape) cancel();
+    event->accept();  // whatever it does otherwise, it belongs to the drawing now
+    if (!override) cancel();
     return true;
 }
 
@@ -95,7 +96,8 @@ bool ZoneTool::press(const QMouseEvent& event, const CanvasPlace& place) {
     const QPointF point = place.transform.imageFromView(event.position());
     if (!points_.empty()) {
         const QPointF last = place.transform.viewFromImage({points_.back().x, points_.back().y});
-        if (std::hypot(last.x() - event.position().x(), last.y() - event.position().y()) < kSamePoint) return true;
+        const double same = place.by_keys ? kSamePlace : kSamePoint;
+        if (std::hypot(last.x() - event.position().x(), last.y() - event.position().y()) < same) return true;
     }
     points_.emplace_back(point.x(), point.y());
     canvas_.update();
@@ -168,7 +170,9 @@ QString ZoneTool::hint(const CanvasPlace&) const {
         }
         return tr("Click the corners.");
     };
-    return tr("%1 Double-click or Enter: done · Backspace: remove the last one · Esc: cancel").arg(begin());
+    // Where the cross is, Enter clicks.
+    const QString done = canvas_.keyPointer() ? tr("Double-click: done") : tr("Double-click or Enter: done");
+    return tr("%1 %2 · Backspace: remove the last one · Esc: cancel").arg(begin(), done);
 }
 
 }  // namespace eyrie::ui

@@ -13,8 +13,8 @@ namespace eyrie::ui {
 
 class VideoView;
 
-/// Draws a zone, a line or an arrow on the canvas: clicks set points, a double click, Return or the right button ends
-/// it, Backspace takes the last point back, Escape gives up. Changes nothing itself.
+/// Draws a zone, a line or an arrow on the canvas: clicks set points, a double click, the right button or, while no
+/// cross is shown, Enter ends it, Backspace takes the last point back, Escape gives up. Changes nothing itself.
 class ZoneTool : public QObject, public CanvasTool {
     Q_OBJECT
 
@@ -48,6 +48,7 @@ class ZoneTool : public QObject, public CanvasTool {
     const QCursor* cursor() const override;
     QString hint(const CanvasPlace& place) const override;
     bool takeBack() override;
+    bool finishByKey() override;
 
  signals:
     /// Drawing began or ended.

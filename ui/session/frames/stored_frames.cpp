@@ -11,8 +11,6 @@ namespace eyrie::ui {
 namespace {
 
 constexpr std::size_t kResultBudget = std::size_t{96} << 20U;
-constexpr int kBlockFrames = 256;       ///< whose homographies are read at once
-constexpr std::size_t kMostBlocks = 8;  ///< kept
 
 std::size_t bytesOf(const FrameResult& result) {
     std::size_t bytes = sizeof(FrameResult) + result.motion.motion_vectors.size() * sizeof(MotionVector) +
@@ -27,13 +25,14 @@ std::size_t bytesOf(const FrameResult& result) {
 }  // namespace
 
 StoredFrames::StoredFrames(const std::filesystem::path& project, int run_id, int trail_length,
-                           std::shared_ptr<const CorrectedTracks> corrected)
+                           std::shared_ptr<const CorrectedTracks> corrected, HomographyBlocks blocks)
     : project_(ProjectFile::open(project, ProjectFile::Mode::read_only)),
       store_(project_),
       run_id_(run_id),
       trail_length_(trail_length),
       corrected_(corrected ? std::move(corrected) : std::make_shared<const CorrectedTracks>()),
-      results_(kResultBudget) {
+      results_(kResultBudget),
+      blocks_(blocks) {
     if (const auto run = store_.run(run_id)) scale_ = run->scale;
 }
 
@@ -63,12 +62,12 @@ std::shared_ptr<const FrameResult> StoredFrames::result(FrameIndex frame) {
 
 const Homography* StoredFrames::homography(FrameIndex frame) {
     // Of a run of hours only what lies about the frames looked at is read, and kept.
-    const int number = frame / kBlockFrames;
-    if (!homographies_.contains(number) && homographies_.size() >= kMostBlocks) homographies_.clear();
+    const int number = frame / blocks_.frames;
+    if (!homographies_.contains(number) && homographies_.size() >= blocks_.most) homographies_.clear();
     HomographyBlock& block = homographies_[number];
     if (!block.known.contains(frame)) {
-        const FrameIndex first = std::max(block.next, number * kBlockFrames);
-        for (Homography& h : store_.homographies(run_id_, first, (number + 1) * kBlockFrames - 1)) {
+        const FrameIndex first = std::max(block.next, number * blocks_.frames);
+        for (Homography& h : store_.homographies(run_id_, first, (number + 1) * blocks_.frames - 1)) {
             block.next = h.to_frame + 1;
             block.known[h.to_frame] = h;
         }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -12,12 +13,18 @@
 
 namespace eyrie::ui {
 
+/// How much of a run's registration is kept in memory.
+struct HomographyBlocks {
+    int frames = 256;      ///< read at once
+    std::size_t most = 8;  ///< kept
+};
+
 /// The frames of one stored run, by an own connection; a few are kept in memory. For one thread. Throws Error.
 class StoredFrames {
  public:
     /// `corrected`: what people made of the run's tracks; null: they are shown as they are.
     StoredFrames(const std::filesystem::path& project, int run_id, int trail_length,
-                 std::shared_ptr<const CorrectedTracks> corrected = {});
+                 std::shared_ptr<const CorrectedTracks> corrected = {}, HomographyBlocks blocks = {});
 
     /// Fills result, scale, trails and, if it has none, time; leaves the frame as it is when the run does not have it.
     void addTo(ViewFrame& frame);
@@ -41,6 +48,7 @@ class StoredFrames {
         std::map<FrameIndex, Homography> known;
         FrameIndex next = 0;  ///< the first that was not read; the run may be at work
     };
+    HomographyBlocks blocks_;
     std::map<int, HomographyBlock> homographies_;  ///< by number; a few
 };
 
