@@ -36,7 +36,7 @@ struct DetectionOptions {
     double extend_across = 1.25;   ///< … and by this one across it
     double min_roi_length_m = 7;   ///< a search area is at least this long …
     double min_roi_width_m = 3.2;  ///< … and wide
-    double cluster_margin = 0.5;   ///< the box of a cluster is grown by this on every side of its vectors
+    double cluster_margin = 0.5;   ///< px by which the box of a cluster is grown on every side of its vectors
     GradientOptions gradient;      ///< what it says about components holds for every segmentation
     RelativeConnectivityOptions relative_connectivity;
     SlidingWindowOptions sliding_window;

@@ -11,7 +11,7 @@ struct RelativeConnectivityOptions {
     int min_points = 3;        ///< T_m
     double low = 8;            ///< T_l
     double high_factor = 2.0;  ///< b of T_u = b·T_l
-    double car_length = 24;    ///< length to which cars are scaled before; 0: the image as it is
+    double car_length = 24;    ///< px to which cars are scaled before; 0: the image as it is
 
     /// The text to the letter: T_l for vehicles of about 10×20 px, whatever their true size.
     static RelativeConnectivityOptions thesis();

@@ -19,8 +19,8 @@ struct CameraPicture {
 
 /// How long a camera may take before it counts as one that hangs.
 struct CameraPatience {
-    double connect_s =
-        10;                ///< for the first picture, and as long before for a former reader of it that is not done yet
+    /// For the first picture, and as long before for a former reader of it that is not done yet.
+    double connect_s = 10;
     double close_s = 0.5;  ///< to end the picture it is at, and to be closed
 };
 

@@ -16,7 +16,7 @@ struct MotionClusteringOptions {
     double along_m = 3.5;                ///< linkage distance along the motion
     double across_m = 1.0;               ///< linkage distance across the motion
     double roof_length_m = 6.0;          ///< … across a plain roof without corners; 0: off
-    double min_distance = 4;             ///< lowest linkage distance: corners are at least 2 px apart at any scale
+    double min_distance = 4;             ///< px, lowest linkage distance: corners are at least 2 px apart at any scale
     double velocity_share = 0.12;        ///< velocities may differ by this share of the speed …
     double velocity_floor = 0.03;        ///< … or by this, px/frame …
     double velocity_noise_factor = 1.0;  ///< … or by this many deviations of the background's speed …
@@ -24,7 +24,7 @@ struct MotionClusteringOptions {
     int min_members = 3;                 ///< a cluster has at least this many motion vectors
     double min_density_share = 0.33;     ///< … and this share of those expected on a car at the measured density
     int max_min_members = 12;            ///< however dense the corners are, that many are enough
-    double margin = 0.5;                 ///< the box around the members is grown by this on every side
+    double margin = 0.5;                 ///< px by which the box around the members is grown on every side
     double split_width_m = 3.2;          ///< wider clusters are linked again, more tightly; 0: never
     double split_length_m = 0;           ///< longer clusters, too; 0: never
     double max_length_m = 60;            ///< longer clusters are no vehicles, nor a queue of them; 0: no limit

@@ -26,7 +26,7 @@ struct DifferenceOptions {
     int background_frames = 12;         ///< N of the median background
     int background_step = 4;            ///< frames between them
     double gradient_suppression = 0.5;  ///< share of the background's gradient taken off the difference; 0: none
-    double blur = 1.0;                  ///< deviation of the Gaussian before differences are taken
+    double blur = 1.0;                  ///< px, deviation of the Gaussian before differences are taken
     double noise_factor = 5;            ///< pixels move from this many deviations of the frame's own difference on
     double min_contrast = 6;            ///< … and from this difference on, grey values
     double strong_limit = 2.5;          ///< Otsu's threshold is not followed beyond this many times that

@@ -1,9 +1,8 @@
 #include "review/events/event_kind_marks.h"
 
 #include <QPainter>
+#include <QPixmapCache>
 #include <array>
-#include <map>
-#include <tuple>
 
 #include "review/events/event_text.h"
 
@@ -97,13 +96,17 @@ QPixmap kindPlate(int listed_kind, bool dark) {
 }
 
 QPixmap judgedKindPlate(Judgement judgement, int listed_kind, bool dark) {
-    static std::map<std::tuple<Judgement, int, bool>, QPixmap> made;  // a list asks for them at every move
-    QPixmap& pixmap = made[{judgement, listed_kind, dark}];
-    if (!pixmap.isNull()) return pixmap;
+    // A list asks for them at every move.
+    const QString key =
+        QStringLiteral("judged kind %1 %2 %3").arg(static_cast<int>(judgement)).arg(listed_kind).arg(dark);
+    QPixmap pixmap;
+    if (QPixmapCache::find(key, &pixmap)) return pixmap;
     pixmap = emptyPixmap(kIconSize + kIconGap + kPlateWidth);
     QPainter painter(&pixmap);
     judgementIcon(judgement, dark).paint(&painter, QRect(0, 0, kIconSize, kIconSize));
     paintPlate(painter, {kIconSize + kIconGap, 0}, listed_kind, dark);
+    painter.end();
+    QPixmapCache::insert(key, pixmap);
     return pixmap;
 }
 
