@@ -44,7 +44,10 @@ TrackHalf::TrackHalf(const ChainOptions& options, const SceneScale& scale)
       tracker_(options.tracking, scale) {
     if (options.difference.method != MotionMethod::vectors)
         difference_ = std::make_unique<DifferenceMotion>(options.difference, scale);
-    if (looksThroughWindows(options.detection.method)) scores_.emplace(scale);
+    if (looksThroughWindows(options.detection.method)) {
+        appearance_.emplace(makeVehicleAppearance(options.detection.sliding_window, scale));
+        scores_.emplace(scale);
+    }
     if (options.stacking.enabled) stacker_ = std::make_unique<ImageStacker>(options.stacking, scale);
 }
 
@@ -125,6 +128,10 @@ FrameResult TrackHalf::next(const Frame& frame, FrameMotion motion, StageTimes t
         const Stopwatch watch(times, Stage::removal);
         removal_ = {};
         result.detections = removed(std::move(result.detections), result.motion, options_, scale_, &removal_);
+    }
+    if (appearance_) {
+        const Stopwatch watch(times, Stage::detection);
+        appearance_->judge(result.detections, frame);
     }
     if (stacker_) {
         const Stopwatch watch(times, Stage::stacking);

@@ -45,6 +45,15 @@ std::string motionText(const Story& story, const TrackEvidence& evidence) {
            "° off that direction" + height;
 }
 
+std::string looksText(const TrackEvidence& evidence) {
+    const std::string whole = evidence.looked_alike > 0 ? "it was found as a whole vehicle in " +
+                                                              percentText(evidence.looked_alike) + " of its detections"
+                                                        : std::string("it was never found as a whole vehicle");
+    if (std::isnan(evidence.appearance)) return "nobody looked at its appearance; " + whole;
+    return "to the classifier its appearance is worth " + signedText(evidence.appearance) +
+           " on average, vehicles lie above 0; " + whole;
+}
+
 }  // namespace
 
 void tellScore(Story& story, TrackId track, StepVerdict fate) {
@@ -56,11 +65,7 @@ void tellScore(Story& story, TrackId track, StepVerdict fate) {
                              numberText(evidence.score) + ", at least " + numberText(needed) + " is needed";
     story.told.steps.push_back({"score", fate, text, "finishing.min_score"});
     const ScoreParts parts = partsOf(evidence);
-    tellPart(story,
-             evidence.looked_alike > 0
-                 ? "it looked like a vehicle in " + percentText(evidence.looked_alike) + " of its detections"
-                 : std::string("it never looked like a vehicle to the classifier"),
-             parts.looks);
+    tellPart(story, looksText(evidence), parts.looks);
     tellPart(story, "it was detected in " + percentText(evidence.detected) + " of its frames", parts.detected);
     tellPart(story, "it was followed for " + numberText(evidence.life_s) + " s", parts.life);
     tellPart(story, motionText(story, evidence), parts.motion);

@@ -63,7 +63,7 @@ class Method {
     MethodResult finish(const std::vector<FrameMotionSummary>& motions, const VectorsByFrame& vectors) {
         for (const auto& [frame, state] :
              finishTracks(states_, motions, variant_.options.finishing, scale_,
-                          {vectorsIn(vectors), classifiedVehicles(variant_.options, vehiclesIn(vehicles_))})) {
+                          {vectorsIn(vectors), classifiedVehicles(variant_.options, classifiedIn(classified_))})) {
             result_.tracks[frame].push_back(boxOf(frame, state));
         }
         nameClasses(result_.tracks, scale_, variant_.options.classes);
@@ -84,7 +84,7 @@ class Method {
             result_.detections[found.motion.frame].push_back(boxOf(found.motion.frame, detection));
         }
         for (const TrackState& state : found.tracks) states_.emplace_back(found.motion.frame, state);
-        vehicles_[found.motion.frame] = vehiclesOf(found.detections);
+        classified_[found.motion.frame] = classifiedOf(found.detections);
         times_.push_back(found.stage_ms);
     }
 
@@ -105,7 +105,7 @@ class Method {
     std::optional<DifferencePeer> peer_;
     MethodResult result_;
     std::vector<TimedState> states_;
-    VehiclesByFrame vehicles_;
+    ClassifiedByFrame classified_;
     std::vector<StageTimes> times_;
 };
 

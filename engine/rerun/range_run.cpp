@@ -68,7 +68,7 @@ std::optional<RangeResult> runRange(const ReplaySource& source, const ChainOptio
     std::vector<TimedState> states;
     std::vector<FrameMotionSummary> motions;
     VectorsByFrame vectors;
-    VehiclesByFrame vehicles;
+    ClassifiedByFrame classified;
     std::map<FrameIndex, std::shared_ptr<const FrameResult>> frames;
     for (FrameIndex frame = begin; frame <= range.last; ++frame) {
         if (stop.stop_requested()) return std::nullopt;
@@ -77,7 +77,7 @@ std::optional<RangeResult> runRange(const ReplaySource& source, const ChainOptio
         for (const TrackState& state : done->tracks) states.emplace_back(frame, state);
         motions.push_back({frame, done->motion.registration, done->motion.image_size});
         vectors[frame] = done->motion.motion_vectors;
-        vehicles[frame] = vehiclesOf(done->detections);
+        classified[frame] = classifiedOf(done->detections);
         std::shared_ptr<const FrameResult> kept;
         if (frame >= wanted) kept = frames[frame] = std::make_shared<const FrameResult>(std::move(*done));
         if (on_frame) on_frame(kept, frame - begin + 1, total);
@@ -85,7 +85,7 @@ std::optional<RangeResult> runRange(const ReplaySource& source, const ChainOptio
     std::map<FrameIndex, std::vector<TrackState>> tracks;
     for (const auto& [frame, state] :
          finishTracks(states, motions, options.finishing, source.scale,
-                      {vectorsIn(vectors), classifiedVehicles(options, vehiclesIn(vehicles))})) {
+                      {vectorsIn(vectors), classifiedVehicles(options, classifiedIn(classified))})) {
         tracks[frame].push_back(state);
     }
     for (auto& [frame, done] : frames) {  // shared with whoever was told of it, so a copy is changed

@@ -17,6 +17,7 @@
 #include "core/labels/result_box.h"
 #include "detection/detector_factory.h"
 #include "detection/roi_cutter.h"
+#include "detection/sliding_window/vehicle_appearance.h"
 
 namespace eyrie {
 namespace {
@@ -266,8 +267,13 @@ std::shared_ptr<const StageCache::Detected> StageCache::detected(const Point& po
             const auto found = this->found(point, motion);
             count(ChainStage::removal);
             detected->frames.resize(motion.size());
-            forFrames(point.stop, [&](std::size_t i, ClipFrames::Reader&) {
+            std::optional<VehicleAppearance> appearance;
+            if (looksThroughWindows(point.options.detection.method))
+                appearance.emplace(makeVehicleAppearance(point.options.detection.sliding_window, point.scale));
+            forFrames(point.stop, [&](std::size_t i, ClipFrames::Reader& reader) {
                 detected->frames[i] = removed((*found)[i], motion[i], point.options, point.scale);
+                if (appearance && appearance->looksAt(motion[i].frame))
+                    appearance->judge(detected->frames[i], reader.read(motion[i].frame));
             });
         }
         detected->boxes = keptBoxes(motion, detected->frames);
@@ -309,13 +315,14 @@ std::shared_ptr<const BoxesByFrame> StageCache::tracks(const Point& point, const
             const auto place = placeOf(frame);
             return place ? motion[*place].motion_vectors : std::vector<MotionVector>{};
         };
-        const BoxesAt vehicles_at = [&](FrameIndex frame) {
+        const ClassifiedAt classified_at = [&](FrameIndex frame) {
             const auto place = placeOf(frame);
-            return place && *place < detections.size() ? vehiclesOf(detections[*place]) : std::vector<OrientedBox>{};
+            return place && *place < detections.size() ? classifiedOf(detections[*place])
+                                                       : std::vector<ClassifiedBox>{};
         };
         for (const auto& [frame, state] :
              finishTracks(states, summariesOf(motion), point.options.finishing, point.scale,
-                          {vectors_at, classifiedVehicles(point.options, vehicles_at)}))
+                          {vectors_at, classifiedVehicles(point.options, classified_at)}))
             (*boxes)[frame].push_back(boxOf(frame, state));
         nameClasses(*boxes, point.scale, point.options.classes);
         return boxes;

@@ -54,7 +54,7 @@ void LiveScores::judge(std::vector<TrackState>& tracks, const std::vector<Detect
                        const FrameMotion& motion) {
     const Registration& registration = motion.registration;
     const bool cut = registration.state == RegistrationState::first;
-    const std::vector<OrientedBox> vehicles = vehiclesOf(detections);
+    const std::vector<ClassifiedBox> classified = classifiedOf(detections);
     std::map<TrackId, Known> still;
     for (TrackState& state : tracks) {
         Known& known = still[state.id];
@@ -64,7 +64,7 @@ void LiveScores::judge(std::vector<TrackState>& tracks, const std::vector<Detect
             window.known = window.known && !cut && std::isfinite(window.carried.x) && std::isfinite(window.carried.y);
         }
         addState(known, state, motion.frame);
-        known.tally.looked_alike += state.origin == StateOrigin::detected && looksLikeOneOf(vehicles, state.box);
+        if (state.origin == StateOrigin::detected) known.tally.looks.add(state.box, classified);
         state.score = evidenceOf(known.tally, comparisonOf(known), frame_rate_hz_).score;
     }
     known_ = std::move(still);
@@ -77,7 +77,8 @@ void LiveScores::Window::transfer(Archive& archive) {
 
 template <class Archive>
 void LiveScores::Known::transfer(Archive& archive) {
-    archive(tally.states, tally.detected, tally.looked_alike, states, open, closed);
+    archive(tally.states, tally.detected, tally.looks.alike, tally.looks.looked_at, tally.looks.appearance_sum, states,
+            open, closed);
 }
 
 template <class Archive>

@@ -19,8 +19,7 @@ class LiveScores {
  public:
     explicit LiveScores(const SceneScale& scale) : frame_rate_hz_(scale.frame_rate_hz) {}
 
-    /// Sets the score of every track. `detections`: those of the frame; boxes that a classifier took for whole vehicles
-    /// tell what looks like one.
+    /// Sets the score of every track. `detections`: those of the frame, with what the classifier says of them.
     void judge(std::vector<TrackState>& tracks, const std::vector<Detection>& detections, const FrameMotion& motion);
 
     /// What is remembered of the frames so far, written or read; see core/state_archive.h.

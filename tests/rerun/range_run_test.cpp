@@ -26,19 +26,19 @@ class RangeRun : public testing::Test {
         std::vector<TimedState> states;
         std::vector<FrameMotionSummary> motions;
         VectorsByFrame vectors;
-        VehiclesByFrame vehicles;
+        ClassifiedByFrame classified;
         for (FrameIndex f = 0; f < scene_.frames; ++f) {
             results.push_back(chain.next(source_.read(f, false)));
             for (const TrackState& state : results.back().tracks) states.emplace_back(f, state);
             const FrameMotion& motion = results.back().motion;
             motions.push_back({f, motion.registration, motion.image_size});
             vectors[f] = motion.motion_vectors;
-            vehicles[f] = vehiclesOf(results.back().detections);
+            classified[f] = classifiedOf(results.back().detections);
             results.back().tracks.clear();
         }
         for (const auto& [frame, state] :
              finishTracks(states, motions, options.finishing, scale_,
-                          {vectorsIn(vectors), classifiedVehicles(options, vehiclesIn(vehicles))}))
+                          {vectorsIn(vectors), classifiedVehicles(options, classifiedIn(classified))}))
             results[static_cast<std::size_t>(frame)].tracks.push_back(state);
         return results;
     }

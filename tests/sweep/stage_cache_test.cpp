@@ -30,7 +30,7 @@ class OwnRun : public ChainObserver {
         EXPECT_EQ(summary.outcome, RunOutcome::finished) << summary.message;
         for (const auto& [frame, state] :
              finishTracks(states_, motions_, options.finishing, kScale,
-                          {vectorsIn(vectors_), classifiedVehicles(options, vehiclesIn(vehicles_))}))
+                          {vectorsIn(vectors_), classifiedVehicles(options, classifiedIn(classified_))}))
             tracks_.emplace_back(frame, state.id, state.box, state.velocity, state.score);
     }
     void onFrame(const std::shared_ptr<const FrameResult>& result, const Frame&) override {
@@ -40,7 +40,7 @@ class OwnRun : public ChainObserver {
         }
         for (const TrackState& state : result->tracks) states_.emplace_back(frame, state);
         vectors_[frame] = result->motion.motion_vectors;
-        vehicles_[frame] = vehiclesOf(result->detections);
+        classified_[frame] = classifiedOf(result->detections);
         motions_.push_back({frame, result->motion.registration, result->motion.image_size});
     }
     struct Box {
@@ -61,7 +61,7 @@ class OwnRun : public ChainObserver {
     std::vector<TimedState> states_;
     std::vector<FrameMotionSummary> motions_;
     VectorsByFrame vectors_;
-    VehiclesByFrame vehicles_;
+    ClassifiedByFrame classified_;
 };
 
 void expectSame(const std::vector<OwnRun::Box>& expected, const BoxesByFrame& found, const std::string& what) {

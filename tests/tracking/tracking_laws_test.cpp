@@ -129,14 +129,14 @@ std::vector<TimedState> finished(const Seen& seen, const std::vector<TimedState>
                                  const FinishingOptions& options = {}, FrameIndex first = 0) {
     std::vector<FrameMotionSummary> motion;
     VectorsByFrame vectors;
-    VehiclesByFrame vehicles;
+    ClassifiedByFrame classified;
     for (std::size_t i = 0; i < seen.motion.size(); ++i) {
         const auto frame = static_cast<FrameIndex>(i) + first;
         motion.push_back({frame, seen.motion[i].registration, seen.motion[i].image_size});
         vectors[frame] = seen.motion[i].motion_vectors;
-        vehicles[frame] = vehiclesOf(seen.detections[i]);
+        classified[frame] = classifiedOf(seen.detections[i]);
     }
-    return finishTracks(states, motion, options, seen.scale, {vectorsIn(vectors), vehiclesIn(vehicles)});
+    return finishTracks(states, motion, options, seen.scale, {vectorsIn(vectors), classifiedIn(classified)});
 }
 
 /// `places`: where a box of `a` is in `b`.

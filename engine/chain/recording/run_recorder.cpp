@@ -80,9 +80,9 @@ RunRecord RunRecorder::finish(const RunSummary& summary) {
     });
     const StatesOfRun followed = [&](const StateVisitor& visitor) { store.visitTrackStates(writer_.runId(), visitor); };
     const VectorsAt vectors_at = [&](FrameIndex frame) { return store.motionVectors(writer_.runId(), frame); };
-    const BoxesAt vehicles_at = [&](FrameIndex frame) { return store.vehicleBoxes(writer_.runId(), frame); };
+    const ClassifiedAt classified_at = [&](FrameIndex frame) { return store.classifiedBoxes(writer_.runId(), frame); };
     const FinishedTracks finished = finishRun(followed, ground, options_.finishing, scale_,
-                                              {vectors_at, classifiedVehicles(options_, vehicles_at)});
+                                              {vectors_at, classifiedVehicles(options_, classified_at)});
     RunStateStore(project).keepTracks(writer_.runId());
     TracksOfRun tracks;
     tracks.states = [&](const StateVisitor& visitor) { finished.visit(visitor); };

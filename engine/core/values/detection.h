@@ -30,6 +30,9 @@ struct Detection {
     bool complete = false;  ///< the box of a whole vehicle (classifier); other boxes may lack or join parts
     /// That it is a vehicle that moves, 0 … 1; NaN where it was not judged: rejected, or no classifier takes part.
     double probability = std::numeric_limits<double>::quiet_NaN();
+    /// How much it looks like a vehicle to the classifier: the decision value of a window laid over the box, above 0
+    /// for vehicles. NaN where nobody looked: rejected, no classifier takes part, or another frame of the second.
+    double appearance = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// What results tell of it: its probability where it has one.

@@ -15,8 +15,9 @@ namespace {
 constexpr std::byte kDeflated{1};
 constexpr std::size_t kSqueezedHeader = 6;
 constexpr int kQuick = 1;  ///< zlib's level: a run does this for every frame
-constexpr std::size_t kBoxBytes = 5 * sizeof(double);
-constexpr std::size_t kBytesOfVector = 28;  ///< as packMotionVectors() lays them
+constexpr std::size_t kBoxBytes = 7 * sizeof(double);
+constexpr std::size_t kBareBoxBytes = 5 * sizeof(double);  ///< before appearance was known
+constexpr std::size_t kBytesOfVector = 28;                 ///< as packMotionVectors() lays them
 
 /// Byte i of every record behind byte i − 1 of every record; the other way round with `back`.
 Bytes shuffled(ByteView bytes, std::size_t stride, bool back) {
@@ -87,24 +88,34 @@ std::optional<std::vector<MotionVector>> unsqueezeMotionVectors(ByteView bytes) 
     return raw ? unpackMotionVectors(*raw) : std::nullopt;
 }
 
-Bytes squeezeBoxes(std::span<const OrientedBox> boxes) {
+Bytes squeezeBoxes(std::span<const ClassifiedBox> boxes) {
     std::vector<double> numbers;
-    numbers.reserve(boxes.size() * 5);
-    for (const OrientedBox& box : boxes)
-        numbers.insert(numbers.end(), {box.centre.x, box.centre.y, box.length, box.width, box.heading});
+    numbers.reserve(boxes.size() * 7);
+    for (const auto& [box, whole, appearance] : boxes) {
+        numbers.insert(numbers.end(),
+                       {box.centre.x, box.centre.y, box.length, box.width, box.heading, whole ? 1.0 : 0.0, appearance});
+    }
     return squeezed(std::as_bytes(std::span(numbers)), kBoxBytes);
 }
 
-std::optional<std::vector<OrientedBox>> unsqueezeBoxes(ByteView bytes) {
-    const auto raw = haveStride(bytes, kBoxBytes) ? unsqueezed(bytes) : std::nullopt;
-    if (!raw || raw->size() % kBoxBytes != 0) return std::nullopt;
-    std::vector<OrientedBox> boxes(raw->size() / kBoxBytes);
+std::optional<std::vector<ClassifiedBox>> unsqueezeBoxes(ByteView bytes) {
+    const bool bare = haveStride(bytes, kBareBoxBytes);
+    const auto raw = bare || haveStride(bytes, kBoxBytes) ? unsqueezed(bytes) : std::nullopt;
+    if (!raw) return std::nullopt;
+    std::vector<ClassifiedBox> boxes(raw->size() / (bare ? kBareBoxBytes : kBoxBytes));
     const std::byte* at = raw->data();
-    for (OrientedBox& box : boxes) {
-        for (double* number : {&box.centre.x, &box.centre.y, &box.length, &box.width, &box.heading}) {
-            std::memcpy(number, at, sizeof(double));
-            at += sizeof(double);
+    const auto read = [&at](double& number) {
+        std::memcpy(&number, at, sizeof number);
+        at += sizeof number;
+    };
+    for (auto& [box, whole, appearance] : boxes) {
+        for (double* number : {&box.centre.x, &box.centre.y, &box.length, &box.width, &box.heading}) read(*number);
+        double found_whole = 1;
+        if (!bare) {
+            read(found_whole);
+            read(appearance);
         }
+        whole = found_whole != 0;
     }
     return boxes;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/geometry/oriented_box.h"
+#include "core/values/classified_box.h"
 #include "store/runs/packed_arrays.h"
 
 namespace eyrie {
@@ -12,10 +12,11 @@ Bytes squeezed(ByteView bytes, std::size_t stride);
 /// Nothing for bytes that no squeezing yields, and where more than `most` bytes would come out.
 std::optional<Bytes> unsqueezed(ByteView bytes, std::size_t most = std::size_t{1} << 28U);
 
-/// The same of motion vectors and of boxes, exact.
+/// The same of motion vectors and of classified boxes, exact. Boxes as they were written before appearance was known
+/// are read, too: of whole vehicles.
 Bytes squeezeMotionVectors(std::span<const MotionVector> vectors);
 std::optional<std::vector<MotionVector>> unsqueezeMotionVectors(ByteView bytes);
-Bytes squeezeBoxes(std::span<const OrientedBox> boxes);
-std::optional<std::vector<OrientedBox>> unsqueezeBoxes(ByteView bytes);
+Bytes squeezeBoxes(std::span<const ClassifiedBox> boxes);
+std::optional<std::vector<ClassifiedBox>> unsqueezeBoxes(ByteView bytes);
 
 }  // namespace eyrie

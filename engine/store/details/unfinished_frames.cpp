@@ -2,6 +2,7 @@
 
 #include <SQLiteCpp/Database.h>
 
+#include "core/values/classified_box.h"
 #include "store/database/rows.h"
 #include "store/details/squeezed_bytes.h"
 
@@ -24,12 +25,8 @@ UnfinishedFrames::UnfinishedFrames(SQLite::Database& database)
     : insert_(database, "INSERT INTO unfinished_frame (run_id, frame, vectors, vehicles) VALUES (?, ?, ?, ?)") {}
 
 void UnfinishedFrames::insert(int run_id, const FrameResult& result) {
-    std::vector<OrientedBox> boxes;
-    for (const Detection& detection : result.detections) {
-        if (detection.rejection == Rejection::none && detection.complete) boxes.push_back(detection.box);
-    }
     const Bytes vectors = squeezeMotionVectors(result.motion.motion_vectors);
-    const Bytes vehicles = squeezeBoxes(boxes);
+    const Bytes vehicles = squeezeBoxes(classifiedOf(result.detections));
     RowWriter(insert_).integer(run_id).integer(result.motion.frame).bytes(vectors).bytes(vehicles).run();
 }
 
@@ -38,8 +35,8 @@ std::optional<std::vector<MotionVector>> UnfinishedFrames::vectors(SQLite::Datab
     return readSqueezed(database, "vectors", run_id, frame, unsqueezeMotionVectors);
 }
 
-std::optional<std::vector<OrientedBox>> UnfinishedFrames::vehicles(SQLite::Database& database, int run_id,
-                                                                   FrameIndex frame) {
+std::optional<std::vector<ClassifiedBox>> UnfinishedFrames::classified(SQLite::Database& database, int run_id,
+                                                                       FrameIndex frame) {
     return readSqueezed(database, "vehicles", run_id, frame, unsqueezeBoxes);
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/values/classified_box.h"
 #include "core/values/frame_result.h"
 
 namespace SQLite {
@@ -13,7 +14,7 @@ class Database;
 
 namespace eyrie {
 
-/// What finishing a run needs of the frames of which it keeps no details: motion vectors, and boxes of whole vehicles.
+/// What finishing a run needs of the frames of which it keeps no details: motion vectors, and what the classifier says.
 /// There until the run is finished. The caller owns the transaction; `database` must outlive it.
 class UnfinishedFrames {
  public:
@@ -22,7 +23,8 @@ class UnfinishedFrames {
 
     /// Nothing where the run has no such frame here.
     static std::optional<std::vector<MotionVector>> vectors(SQLite::Database& database, int run_id, FrameIndex frame);
-    static std::optional<std::vector<OrientedBox>> vehicles(SQLite::Database& database, int run_id, FrameIndex frame);
+    static std::optional<std::vector<ClassifiedBox>> classified(SQLite::Database& database, int run_id,
+                                                                FrameIndex frame);
 
  private:
     SQLite::Statement insert_;

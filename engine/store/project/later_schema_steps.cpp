@@ -460,4 +460,26 @@ void addVideoStarts(SQLite::Database& database) {
 // Zones may be arrows. The tables are the same; versions before do not know the word, and should say so at once.
 void addArrows(SQLite::Database&) {}
 
+// How much detections and tracks look like vehicles to the classifier.
+void addAppearance(SQLite::Database& database) {
+    database.exec(R"sql(
+ALTER TABLE detection ADD COLUMN appearance REAL;
+ALTER TABLE track_evidence ADD COLUMN appearance REAL;
+DROP VIEW IF EXISTS v_detections;
+CREATE VIEW v_detections AS
+SELECT detection.run_id AS run, detection.frame, detection.number, detection.x, detection.y,
+    detection.length AS length_px, detection.width AS width_px,
+    detection.heading_rad * 57.29577951308232
+        + CASE WHEN detection.heading_rad < 0 THEN 360 ELSE 0 END AS heading_deg,
+    detection.score, detection.rejection, detection.probability, detection.appearance
+FROM detection JOIN v_runs ON v_runs.run = detection.run_id;
+DROP VIEW IF EXISTS v_track_evidence;
+CREATE VIEW v_track_evidence AS
+SELECT track_evidence.run_id AS run, track_evidence.track_id AS track, track_evidence.detected,
+    track_evidence.looked_alike, track_evidence.life_s, track_evidence.flow_px, track_evidence.flow_ratio,
+    track_evidence.alignment, track_evidence.score, track_evidence.appearance
+FROM track_evidence JOIN v_runs ON v_runs.run = track_evidence.run_id;
+)sql");
+}
+
 }  // namespace eyrie::schema

@@ -42,9 +42,10 @@ std::vector<TrackFrame> readDoubtful(ProjectFile& project, int run_id, const std
 void insertDoubtful(SQLite::Database& database, int run_id, const TracksOfRun& tracks) {
     SQLite::Statement state_of(database, insertState("doubtful_state"));
     tracks.doubtful([&](FrameIndex frame, const TrackState& state) { writeState(state_of, run_id, frame, state); });
-    SQLite::Statement evidence_of(database,
-                                  "INSERT INTO track_evidence (run_id, track_id, detected, looked_alike, life_s, "
-                                  "flow_px, flow_ratio, alignment, score) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)");
+    SQLite::Statement evidence_of(
+        database,
+        "INSERT INTO track_evidence (run_id, track_id, detected, looked_alike, life_s, "
+        "flow_px, flow_ratio, alignment, score, appearance) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
     for (const auto& [track, evidence] : tracks.evidence) {
         RowWriter(evidence_of)
             .integer(run_id)
@@ -56,6 +57,7 @@ void insertDoubtful(SQLite::Database& database, int run_id, const TracksOfRun& t
             .real(evidence.flow_ratio)
             .real(evidence.alignment)
             .real(evidence.score)
+            .real(evidence.appearance)
             .run();
     }
 }
@@ -119,7 +121,7 @@ std::optional<TrackEvidence> DoubtfulTracks::evidence(int run_id, TrackId track)
         [&]() -> std::optional<TrackEvidence> {
             SQLite::Statement statement(project_.database(),
                                         "SELECT detected, looked_alike, life_s, flow_px, flow_ratio, "
-                                        "alignment, score FROM track_evidence WHERE run_id = ? AND "
+                                        "alignment, score, appearance FROM track_evidence WHERE run_id = ? AND "
                                         "track_id = ?");
             statement.bind(1, run_id);
             statement.bind(2, track);
@@ -131,6 +133,7 @@ std::optional<TrackEvidence> DoubtfulTracks::evidence(int run_id, TrackId track)
                 *value = row.real();
                 if (!std::isfinite(*value)) throw MalformedRow{"evidence that is no number"};
             }
+            evidence.appearance = row.real();
             return evidence;
         });
 }

@@ -120,7 +120,7 @@ FrameRows::FrameRows(SQLite::Database& database)
       roi_(database, insertInto("roi", "run_id, frame, number, x, y, length, width, heading_rad")),
       detection_(database, insertInto("detection",
                                       "run_id, frame, number, x, y, length, width, heading_rad, vx, vy, score, "
-                                      "cluster, rejection, vectors, complete, probability")),
+                                      "cluster, rejection, vectors, complete, probability, appearance")),
       unfinished_(database),
       tracks_(database) {
     for (const char* table :
@@ -207,6 +207,7 @@ void FrameRows::insertDetails(int run_id, const FrameResult& result) {
             .bytes(members)
             .integer(detection.complete ? 1 : 0)
             .real(detection.probability)
+            .real(detection.appearance)
             .run();
     }
 }

@@ -168,7 +168,7 @@ std::vector<Detection> readDetections(SQLite::Database& database, int run_id, Fr
     return readItems<Detection>(
         database,
         "SELECT x, y, length, width, heading_rad, vx, vy, score, cluster, rejection, vectors, complete, "
-        "probability FROM detection WHERE run_id = ? AND frame = ? ORDER BY number",
+        "probability, appearance FROM detection WHERE run_id = ? AND frame = ? ORDER BY number",
         run_id, frame, [&](RowReader& row) {
             Detection detection;
             detection.box = row.box();
@@ -179,6 +179,7 @@ std::vector<Detection> readDetections(SQLite::Database& database, int run_id, Fr
             detection.vectors = readIndices(row, vectors);
             detection.complete = row.integer() != 0;
             detection.probability = row.real();
+            detection.appearance = row.real();
             return detection;
         });
 }
@@ -305,16 +306,24 @@ BoxesByFrame RunStore::trackBoxes(int run_id) const {
     return boxes;
 }
 
-std::vector<OrientedBox> RunStore::vehicleBoxes(int run_id, FrameIndex frame) const {
+std::vector<ClassifiedBox> RunStore::classifiedBoxes(int run_id, FrameIndex frame) const {
     return guarded(project_.path(), "reading the detections" + ofRun(run_id), [&] {
-        if (auto aside = UnfinishedFrames::vehicles(project_.database(), run_id, frame)) return std::move(*aside);
-        SQLite::Statement statement(project_.database(),
-                                    "SELECT x, y, length, width, heading_rad FROM detection WHERE run_id = ? AND "
-                                    "frame = ? AND rejection = 'none' AND complete ORDER BY number");
+        if (auto aside = UnfinishedFrames::classified(project_.database(), run_id, frame)) return std::move(*aside);
+        SQLite::Statement statement(
+            project_.database(),
+            "SELECT x, y, length, width, heading_rad, complete, appearance FROM detection WHERE "
+            "run_id = ? AND frame = ? AND rejection = 'none' AND "
+            "(complete OR appearance IS NOT NULL) ORDER BY number");
         statement.bind(1, run_id);
         statement.bind(2, frame);
-        std::vector<OrientedBox> boxes;
-        while (statement.executeStep()) boxes.push_back(RowReader(statement).box());
+        std::vector<ClassifiedBox> boxes;
+        while (statement.executeStep()) {
+            RowReader row(statement);
+            ClassifiedBox& read = boxes.emplace_back();
+            read.box = row.box();
+            read.whole = row.integer() != 0;
+            read.appearance = row.real();
+        }
         return boxes;
     });
 }

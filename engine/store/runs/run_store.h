@@ -11,6 +11,7 @@
 #include "core/labels/box_record.h"
 #include "core/labels/track_class.h"
 #include "core/review/track_correction.h"
+#include "core/values/classified_box.h"
 #include "core/values/frame_result.h"
 #include "core/values/scale_basis.h"
 #include "core/values/scene_scale.h"
@@ -140,7 +141,7 @@ class RunStore {
     /// Its motion vectors alone, by ascending id; none when the run has no such frame.
     std::vector<MotionVector> motionVectors(int run_id, FrameIndex frame) const;
     /// Boxes of its kept detections that a classifier took for whole vehicles.
-    std::vector<OrientedBox> vehicleBoxes(int run_id, FrameIndex frame) const;
+    std::vector<ClassifiedBox> classifiedBoxes(int run_id, FrameIndex frame) const;
     std::vector<TrackSummary> tracks(int run_id) const;                    ///< ascending id
     TrackId lastTrackId(int run_id) const;                                 ///< the highest; 0 without tracks
     std::vector<TrackFrame> trackStates(int run_id, TrackId track) const;  ///< ascending frames

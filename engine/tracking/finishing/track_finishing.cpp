@@ -197,14 +197,6 @@ FinishingOptions FinishingOptions::thesis() {
     return options;
 }
 
-std::vector<OrientedBox> vehiclesOf(const std::vector<Detection>& detections) {
-    std::vector<OrientedBox> boxes;
-    for (const Detection& detection : detections) {
-        if (detection.complete && detection.rejection == Rejection::none) boxes.push_back(detection.box);
-    }
-    return boxes;
-}
-
 namespace {
 
 template <class Value>
@@ -217,7 +209,7 @@ std::function<std::vector<Value>(FrameIndex)> askFor(const std::unordered_map<Fr
 
 }  // namespace
 
-BoxesAt vehiclesIn(const VehiclesByFrame& kept) {
+ClassifiedAt classifiedIn(const ClassifiedByFrame& kept) {
     return askFor(kept);
 }
 
@@ -341,8 +333,8 @@ FinishedTracks finishRun(const StatesOfRun& states, const GroundMotion& ground, 
     traceBack(paths, ground, found.vectors_at, framesOf(options.trace_back_s, scale));
     dropHardlyDetected(paths, options.min_detected, scale, drops);
     // Without a classifier nothing is known of looks, and nothing is judged by them.
-    const bool judged = static_cast<bool>(found.vehicles_at);
-    const VehicleLooks looks = judged ? lookedLikeVehicle(paths, found.vehicles_at) : VehicleLooks{};
+    const bool judged = static_cast<bool>(found.classified_at);
+    const VehicleLooks looks = judged ? looksOf(paths, found.classified_at) : VehicleLooks{};
     if (judged) dropStanding(paths, ground, looks, options, drops);
     extendToRest(paths, ground, framesOf(options.from_rest_s, scale), scale);
     extendBack(paths, ground, options.extend_back, framesOf(options.extend_entry_s, scale));

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/parameter.h"
+#include "core/values/classified_box.h"
 #include "core/values/corner.h"
 #include "core/values/detection.h"
 #include "core/values/dropped_state.h"
@@ -165,24 +166,22 @@ using TimedDrop = std::pair<FrameIndex, DroppedState>;
 /// The motion vectors of a frame of the run, by ascending id; none for frames it does not have.
 using VectorsAt = std::function<std::vector<MotionVector>(FrameIndex)>;
 
-/// Boxes that a classifier took for whole vehicles in a frame of the run; none for frames it does not have.
-using BoxesAt = std::function<std::vector<OrientedBox>(FrameIndex)>;
+/// Detections that were kept in a frame of the run and of which the classifier says something; none for frames it does
+/// not have.
+using ClassifiedAt = std::function<std::vector<ClassifiedBox>(FrameIndex)>;
 
 /// What was found in the frames of a run, as far as finishing looks at it. A source that is not there says nothing.
 struct FoundInFrames {
     FoundInFrames() = default;
-    FoundInFrames(VectorsAt vectors, BoxesAt vehicles = {})
-        : vectors_at(std::move(vectors)), vehicles_at(std::move(vehicles)) {}
+    FoundInFrames(VectorsAt vectors, ClassifiedAt classified = {})
+        : vectors_at(std::move(vectors)), classified_at(std::move(classified)) {}
     VectorsAt vectors_at;
-    BoxesAt vehicles_at;  ///< only of runs in which a classifier takes part
+    ClassifiedAt classified_at;  ///< only of runs in which a classifier takes part
 };
 
-/// The boxes of those detections that were kept and that a classifier took for whole vehicles.
-std::vector<OrientedBox> vehiclesOf(const std::vector<Detection>& detections);
-
-/// The boxes that were kept of frames; it must outlive the result.
-using VehiclesByFrame = std::unordered_map<FrameIndex, std::vector<OrientedBox>>;
-BoxesAt vehiclesIn(const VehiclesByFrame& kept);
+/// What was kept of frames; it must outlive the result.
+using ClassifiedByFrame = std::unordered_map<FrameIndex, std::vector<ClassifiedBox>>;
+ClassifiedAt classifiedIn(const ClassifiedByFrame& kept);
 
 /// The vectors that were kept of frames; it must outlive the result.
 using VectorsByFrame = std::unordered_map<FrameIndex, std::vector<MotionVector>>;

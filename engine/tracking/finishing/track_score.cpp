@@ -17,10 +17,11 @@ constexpr double kLifeOffset = 0.1;  ///< s
 constexpr double kLeastInPicture = 0.3;  ///< of the flow: what moves that much through the picture does not stick to it
 constexpr double kDeepestRatio = 0.25;   ///< of own motion to the flow: a fifth of the flight's height below the ground
 
-constexpr std::size_t kFigures = 10;
+constexpr double kUnknownAppearance = 1;  ///< tells nothing
+
+constexpr std::size_t kFigures = 8;
 /// As tests/learn_track_score prints them.
-constexpr std::array<double, kFigures> kWeights{-3.424, 4.551,  0.907, 2.522, 0.575,
-                                                -2.072, -1.055, 1.214, 1.688, -1.178};
+constexpr std::array<double, kFigures> kWeights{0, 0, 0, 0, 0, 0, 0, 0};
 
 /// How far a thing that seems to move against the ground's flow may do so without moving, 0 … 1: it keeps its place in
 /// the picture, as dirt on the lens does, or lies a little below the ground's plane.
@@ -33,16 +34,14 @@ double stillAgainstFlow(const TrackEvidence& e) {
 
 std::array<double, kFigures> figuresOf(const TrackEvidence& e) {
     const double flow = std::log1p(std::min(e.flow_px, kMostFlow));
-    const double ever = e.looked_alike > 0 ? 1 : 0;
+    const double appearance = std::isnan(e.appearance) ? kUnknownAppearance : e.appearance;
     return {1,
             e.detected,
-            ever,
-            std::sqrt(e.looked_alike),
+            appearance,
             std::log(e.life_s + kLifeOffset),
             flow,
             flow * stillAgainstFlow(e),
             flow * std::min(e.flow_ratio, kMostFlowRatio),
-            flow * ever,
             flow * (e.detected - kUsualShare)};
 }
 
@@ -52,7 +51,8 @@ TrackEvidence evidenceOf(const TrackTally& tally, const std::optional<FlowCompar
     TrackEvidence evidence;
     const double states = std::max(1, tally.states);
     evidence.detected = tally.detected / states;
-    evidence.looked_alike = static_cast<double>(tally.looked_alike) / std::max(1, tally.detected);
+    evidence.looked_alike = static_cast<double>(tally.looks.alike) / std::max(1, tally.detected);
+    evidence.appearance = tally.looks.appearance();
     evidence.life_s = states / frame_rate_hz;
     if (motion) {
         evidence.flow_px = motion->flow;
@@ -63,7 +63,8 @@ TrackEvidence evidenceOf(const TrackTally& tally, const std::optional<FlowCompar
     return evidence;
 }
 
-TrackEvidence evidenceOf(const TrackPath& path, int looks, const GroundMotion& ground, const SceneScale& scale) {
+TrackEvidence evidenceOf(const TrackPath& path, const TrackLooks& looks, const GroundMotion& ground,
+                         const SceneScale& scale) {
     const int states = static_cast<int>(path.states.size()) - path.statesOf(StateOrigin::standing);
     return evidenceOf({states, path.statesOf(StateOrigin::detected), looks}, comparedWithFlow(path, ground),
                       scale.frame_rate_hz);
@@ -81,10 +82,10 @@ ScoreParts partsOf(const TrackEvidence& evidence) {
     const auto part = [&](std::size_t i) { return kWeights[i] * figures[i]; };
     const double usual = kWeights[1] * kUsualShare;
     ScoreParts parts;
-    parts.detected = part(1) - usual + part(9);
-    parts.looks = part(0) + usual + part(2) + part(3) + part(8);
-    parts.life = part(4);
-    parts.motion = part(5) + part(6) + part(7);
+    parts.detected = part(1) - usual + part(7);
+    parts.looks = part(0) + usual + part(2);
+    parts.life = part(3);
+    parts.motion = part(4) + part(5) + part(6);
     return parts;
 }
 
@@ -92,7 +93,8 @@ void scoreTracks(std::vector<TrackPath>& paths, const GroundMotion& ground, cons
                  const SceneScale& scale, FinishedTracks& finished) {
     const auto scored = [&](TrackPath& path) {
         const auto found = looks.find(path.id);
-        const TrackEvidence evidence = evidenceOf(path, found == looks.end() ? 0 : found->second, ground, scale);
+        const TrackEvidence evidence =
+            evidenceOf(path, found == looks.end() ? TrackLooks{} : found->second, ground, scale);
         for (auto& [frame, state] : path.states) state.score = static_cast<float>(evidence.score);
         finished.evidence[path.id] = evidence;
         return evidence.score;

@@ -42,7 +42,8 @@ bool movesAsPassed(const TrackPath& path, const GroundMotion& ground, double hig
 void dropStanding(std::vector<TrackPath>& paths, const GroundMotion& ground, const VehicleLooks& looks,
                   const FinishingOptions& options, DropList& dropped) {
     std::erase_if(paths, [&](TrackPath& path) {
-        const bool unlike = !looks.contains(path.id);
+        const auto seen = looks.find(path.id);
+        const bool unlike = seen == looks.end() || seen->second.alike == 0;
         const double highest =
             unlike ? std::max(options.standing_height, options.roof_height) : options.standing_height;
         const bool stands = unlike && movesLikeStanding(path, ground, options);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "tracking/finishing/track_paths.h"
@@ -9,28 +10,44 @@
 namespace eyrie {
 namespace {
 
-bool isAt(const OrientedBox& vehicle, const OrientedBox& box) {
-    const cv::Point2d off = vehicle.centre - box.centre;
-    return std::hypot(off.x, off.y) < std::max(box.length, box.width) / 2;
-}
+constexpr double kLeastAppearance = -6;
+constexpr double kMostAppearance = 12;
 
 }  // namespace
 
-bool looksLikeOneOf(const std::vector<OrientedBox>& vehicles, const OrientedBox& box) {
-    return std::any_of(vehicles.begin(), vehicles.end(), [&](const OrientedBox& v) { return isAt(v, box); });
+void TrackLooks::add(const OrientedBox& box, const std::vector<ClassifiedBox>& classified) {
+    bool whole = false;
+    const ClassifiedBox* nearest = nullptr;
+    double nearest_off = std::max(box.length, box.width) / 2;
+    for (const ClassifiedBox& other : classified) {
+        const double off = std::hypot(other.box.centre.x - box.centre.x, other.box.centre.y - box.centre.y);
+        if (off >= std::max(box.length, box.width) / 2) continue;
+        whole = whole || other.whole;
+        if (std::isnan(other.appearance) || off >= nearest_off) continue;
+        nearest = &other;
+        nearest_off = off;
+    }
+    alike += whole ? 1 : 0;
+    if (nearest == nullptr) return;
+    ++looked_at;
+    appearance_sum += std::clamp(nearest->appearance, kLeastAppearance, kMostAppearance);
 }
 
-VehicleLooks lookedLikeVehicle(const std::vector<TrackPath>& paths, const BoxesAt& vehicles_at) {
+double TrackLooks::appearance() const {
+    return looked_at > 0 ? appearance_sum / looked_at : std::numeric_limits<double>::quiet_NaN();
+}
+
+VehicleLooks looksOf(const std::vector<TrackPath>& paths, const ClassifiedAt& classified_at) {
     VehicleLooks looks;
     std::optional<FrameIndex> asked;
-    std::vector<OrientedBox> vehicles;
+    std::vector<ClassifiedBox> classified;
     visitByFrame(paths, [&](FrameIndex frame, const TrackPath& path, const PathState& state) {
         if (state.origin != StateOrigin::detected) return;
         if (asked != frame) {
             asked = frame;
-            vehicles = vehicles_at(frame);
+            classified = classified_at(frame);
         }
-        if (looksLikeOneOf(vehicles, state.box)) ++looks[path.id];
+        if (!classified.empty()) looks[path.id].add(state.box, classified);
     });
     return looks;
 }

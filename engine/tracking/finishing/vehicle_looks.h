@@ -7,14 +7,22 @@
 
 namespace eyrie {
 
-/// In how many of its detected states each track was taken for a whole vehicle by the classifier; tracks that never
-/// were are left out.
-using VehicleLooks = std::map<TrackId, int>;
+/// What the classifier said of the detected states of a track.
+struct TrackLooks {
+    int alike = 0;              ///< states in which it took it for a whole vehicle
+    int looked_at = 0;          ///< states of whose detection the appearance is known
+    double appearance_sum = 0;  ///< of those, each held to the limits of TrackEvidence::appearance
 
-/// Whether one of the boxes that a classifier took for whole vehicles lies at a box.
-bool looksLikeOneOf(const std::vector<OrientedBox>& vehicles, const OrientedBox& box);
+    /// Adds a detected state of this box; `classified` is what is known of its frame.
+    void add(const OrientedBox& box, const std::vector<ClassifiedBox>& classified);
+    /// Mean; NaN where nobody looked.
+    double appearance() const;
+};
+
+/// Of tracks that the classifier says nothing of there is nothing.
+using VehicleLooks = std::map<TrackId, TrackLooks>;
 
 /// Asks for each frame once.
-VehicleLooks lookedLikeVehicle(const std::vector<TrackPath>& paths, const BoxesAt& vehicles_at);
+VehicleLooks looksOf(const std::vector<TrackPath>& paths, const ClassifiedAt& classified_at);
 
 }  // namespace eyrie

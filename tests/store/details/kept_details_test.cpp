@@ -65,10 +65,15 @@ TEST_F(KeptDetails, UntilARunIsFinishedItHasWhatFinishingNeeds) {
     ASSERT_EQ(vectors.size(), written.motion.motion_vectors.size());
     EXPECT_EQ(vectors.back().position, written.motion.motion_vectors.back().position);
     const int whole = writeRun(path_, 6, 1, RunState::stopped);
-    const auto boxes = store.vehicleBoxes(run, 3);
-    const auto expected = store.vehicleBoxes(whole, 3);
+    const auto boxes = store.classifiedBoxes(run, 3);
+    const auto expected = store.classifiedBoxes(whole, 3);
     ASSERT_EQ(boxes.size(), expected.size());
-    for (std::size_t i = 0; i < boxes.size(); ++i) EXPECT_EQ(boxes[i].centre, expected[i].centre);
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        EXPECT_EQ(boxes[i].box.centre, expected[i].box.centre);
+        EXPECT_EQ(boxes[i].whole, expected[i].whole);
+        EXPECT_TRUE(boxes[i].appearance == expected[i].appearance ||
+                    (std::isnan(boxes[i].appearance) && std::isnan(expected[i].appearance)));
+    }
     EXPECT_TRUE(checkProject(path_).healthy());
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "store/samples.h"
@@ -17,14 +18,28 @@ TEST(SqueezedBytes, ComeBackAsTheyWere) {
         ASSERT_TRUE(read.has_value());
         EXPECT_EQ(packMotionVectors(*read), packMotionVectors(part));
     }
-    const std::vector<OrientedBox> boxes{{{1.25, -1e-300}, 20, 10, 3.14}, {{1e300, 7}, 0.1, 0.2, -3}};
+    const std::vector<ClassifiedBox> boxes{{{{1.25, -1e-300}, 20, 10, 3.14}, true, -2.5}, {{{1e300, 7}, 0.1, 0.2, -3}}};
     const auto read = unsqueezeBoxes(squeezeBoxes(boxes));
     ASSERT_TRUE(read.has_value());
     ASSERT_EQ(read->size(), 2U);
-    EXPECT_EQ((*read)[0].centre, boxes[0].centre);
-    EXPECT_EQ((*read)[1].centre, boxes[1].centre);
-    EXPECT_EQ((*read)[1].heading, -3);
+    for (std::size_t i = 0; i < boxes.size(); ++i) EXPECT_EQ((*read)[i].box.centre, boxes[i].box.centre);
+    EXPECT_EQ((*read)[1].box.heading, -3);
+    EXPECT_TRUE((*read)[0].whole);
+    EXPECT_FALSE((*read)[1].whole);
+    EXPECT_EQ((*read)[0].appearance, -2.5);
+    EXPECT_TRUE(std::isnan((*read)[1].appearance));
     EXPECT_TRUE(unsqueezeBoxes(squeezeBoxes({}))->empty());
+}
+
+TEST(SqueezedBytes, BoxesOfBeforeAppearanceWasKnownAreThoseOfWholeVehicles) {
+    const std::vector<double> numbers{1, 2, 20, 10, 0.5, 3, 4, 30, 15, -0.5};
+    const auto read = unsqueezeBoxes(squeezed(std::as_bytes(std::span(numbers)), 5 * sizeof(double)));
+    ASSERT_TRUE(read.has_value());
+    ASSERT_EQ(read->size(), 2U);
+    EXPECT_EQ((*read)[1].box.centre, cv::Point2d(3, 4));
+    EXPECT_EQ((*read)[1].box.heading, -0.5);
+    EXPECT_TRUE((*read)[0].whole && (*read)[1].whole);
+    EXPECT_TRUE(std::isnan((*read)[0].appearance));
 }
 
 TEST(SqueezedBytes, VectorsThatMoveAlikeTakeHalfTheirBytesAtMost) {

@@ -15,6 +15,7 @@ TrackEvidence vehicle() {
     TrackEvidence evidence;
     evidence.detected = 0.9;
     evidence.looked_alike = 0.3;
+    evidence.appearance = 5;
     evidence.life_s = 3;
     evidence.flow_px = 1.5;
     evidence.flow_ratio = 1.2;
@@ -60,11 +61,13 @@ struct CarAndCloud {
         state.score = 0.5;
         return state;
     }
-    static std::vector<OrientedBox> car(FrameIndex frame) { return {{{200.0 + 7 * frame, 300}, 22, 11, 0}}; }
+    static std::vector<ClassifiedBox> car(FrameIndex frame) {
+        return {{{{200.0 + 7 * frame, 300}, 22, 11, 0}, true, 6}, {{{500.0 + 0.2 * frame, 40}, 20, 10, 0}, false, -3}};
+    }
 
-    std::vector<TimedState> finished(const BoxesAt& vehicles_at, const FinishingOptions& options = {}) {
+    std::vector<TimedState> finished(const ClassifiedAt& classified_at, const FinishingOptions& options = {}) {
         dropped.clear();
-        return finishTracks(states, motion, options, kScale, {{}, vehicles_at}, &dropped);
+        return finishTracks(states, motion, options, kScale, {{}, classified_at}, &dropped);
     }
 };
 
@@ -84,21 +87,21 @@ TEST(TrackScore, IsAProbabilityThatIsHighForAVehicle) {
 
 TEST(TrackScore, RisesWithWhatSpeaksForAVehicle) {
     EXPECT_GT(probabilityOf(vehicle()), probabilityOf(with(&TrackEvidence::detected, 0.4)));
-    EXPECT_GT(probabilityOf(vehicle()), probabilityOf(with(&TrackEvidence::looked_alike, 0)));
-    EXPECT_GT(probabilityOf(with(&TrackEvidence::looked_alike, 0.8)), probabilityOf(vehicle()));
+    EXPECT_GT(probabilityOf(vehicle()), probabilityOf(with(&TrackEvidence::appearance, 0)));
+    EXPECT_GT(probabilityOf(with(&TrackEvidence::appearance, 8)), probabilityOf(vehicle()));
     EXPECT_GT(probabilityOf(vehicle()), probabilityOf(with(&TrackEvidence::life_s, 0.3)));
     EXPECT_GT(probabilityOf(vehicle()), probabilityOf(with(&TrackEvidence::flow_ratio, 0.3)));
 }
 
 TEST(TrackScore, DoubtsWhatSticksToTheImageUnlessItLookedLikeAVehicle) {
     TrackEvidence sticks = vehicle();
-    sticks.looked_alike = 0;
+    sticks.appearance = -3;
     sticks.detected = 0.5;
     sticks.flow_px = 5;
     sticks.flow_ratio = 1;
     sticks.alignment = -1;
     EXPECT_LT(probabilityOf(sticks), 0.25);
-    EXPECT_GT(probabilityOf(with(&TrackEvidence::looked_alike, 0.3, sticks)), 0.5) << "a car that the camera follows";
+    EXPECT_GT(probabilityOf(with(&TrackEvidence::appearance, 6, sticks)), 0.5) << "a car that the camera follows";
     EXPECT_GT(probabilityOf(with(&TrackEvidence::alignment, 0, sticks)), probabilityOf(sticks));
     EXPECT_GT(probabilityOf(with(&TrackEvidence::flow_px, 0, sticks)), 2 * probabilityOf(sticks))
         << "a camera that hovers tells nothing";
@@ -146,8 +149,9 @@ TEST(TrackScore, DoesNotDependOnHowLongTheVehicleStands) {
         stands.states.emplace_back(frame, PathState(state));
     }
     const GroundMotion ground(scene.motion);
-    const TrackEvidence before = evidenceOf(drives, 20, ground, kScale);
-    const TrackEvidence after = evidenceOf(stands, 20, ground, kScale);
+    const TrackLooks seen{20, 10, 40};
+    const TrackEvidence before = evidenceOf(drives, seen, ground, kScale);
+    const TrackEvidence after = evidenceOf(stands, seen, ground, kScale);
     EXPECT_EQ(after.detected, before.detected);
     EXPECT_EQ(after.life_s, before.life_s);
     EXPECT_NEAR(after.flow_ratio, before.flow_ratio, 0.05);
@@ -169,11 +173,11 @@ TEST(TrackScore, DropsTheCloudAndKeepsTheCar) {
 TEST(TrackScore, IsTheSumOfWhatSpeaksForATrackAndAgainstIt) {
     TrackEvidence evidence = vehicle();
     for (const double detected : {0.2, 0.6, 1.0}) {
-        for (const double looked_alike : {0.0, 0.5}) {
+        for (const double appearance : {-4.0, 8.0}) {
             evidence.detected = detected;
-            evidence.looked_alike = looked_alike;
+            evidence.appearance = appearance;
             EXPECT_NEAR(1 / (1 + std::exp(-partsOf(evidence).sum())), probabilityOf(evidence), 1e-12);
-            EXPECT_EQ(partsOf(evidence).looks < 0, looked_alike == 0);
+            EXPECT_EQ(partsOf(evidence).looks < 0, appearance < 0);
             EXPECT_EQ(partsOf(evidence).detected > 0.1, detected > 0.6);
         }
     }
@@ -185,12 +189,14 @@ TEST(TrackScore, TellsWhatSpokeForEachTrackAndKeepsTheDoubtfulOnes) {
         for (const auto& [frame, state] : scene.states) visitor(frame, state);
     };
     const FinishedTracks finished =
-        finishRun(states, GroundMotion(scene.motion), {}, kScale, {{}, BoxesAt(CarAndCloud::car)});
+        finishRun(states, GroundMotion(scene.motion), {}, kScale, {{}, ClassifiedAt(CarAndCloud::car)});
     ASSERT_EQ(finished.doubtful.size(), 1U);
     EXPECT_EQ(finished.doubtful.front().id, 2);
     EXPECT_EQ(finished.evidence.size(), 2U);
     EXPECT_GT(finished.evidence.at(1).score, 0.9);
     EXPECT_GT(finished.evidence.at(1).looked_alike, 0.9);
+    EXPECT_EQ(finished.evidence.at(1).appearance, 6);
+    EXPECT_EQ(finished.evidence.at(2).appearance, -3);
     EXPECT_LT(finished.evidence.at(2).score, FinishingOptions().min_score);
     EXPECT_LT(finished.evidence.at(2).alignment, -0.9);
     int doubtful = 0;

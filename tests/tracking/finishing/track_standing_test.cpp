@@ -26,7 +26,7 @@ class Standing : public testing::Test {
     }
 
     /// Whether a track stays that moves by `own` px/frame over the ground.
-    bool stays(cv::Point2d own, const BoxesAt& vehicles_at, FinishingOptions options = {}) {
+    bool stays(cv::Point2d own, const ClassifiedAt& classified_at, FinishingOptions options = {}) {
         options.min_score = 0;  // judged by its motion alone
         std::vector<TimedState> states;
         for (FrameIndex frame = 0; frame < kFrames; ++frame) {
@@ -38,13 +38,13 @@ class Standing : public testing::Test {
             states.emplace_back(frame, state);
         }
         drops_.clear();
-        return !finishTracks(states, motion_, options, kScale, {{}, vehicles_at}, &drops_).empty();
+        return !finishTracks(states, motion_, options, kScale, {{}, classified_at}, &drops_).empty();
     }
     cv::Point2d place(cv::Point2d own, FrameIndex frame) const {
         return {300 + (flow_px_ + own.x) * frame, 300 + own.y * frame};
     }
 
-    static std::vector<OrientedBox> none(FrameIndex) { return {}; }
+    static std::vector<ClassifiedBox> none(FrameIndex) { return {}; }
     static constexpr int kFrames = 60;
     std::vector<FrameMotionSummary> motion_;
     std::vector<TimedDrop> drops_;
@@ -77,10 +77,11 @@ TEST_F(Standing, AgainstTheFlowSlowerOnesAreDroppedAndAcrossItNone) {
 TEST_F(Standing, WhatTheClassifierTookForAVehicleStays) {
     const cv::Point2d own(0.5, 0);
     EXPECT_TRUE(stays(own, [&](FrameIndex frame) {
-        return frame == 30 ? std::vector<OrientedBox>{{place(own, frame), 22, 11, 0}} : std::vector<OrientedBox>{};
+        return frame == 30 ? std::vector<ClassifiedBox>{{{place(own, frame), 22, 11, 0}, true}}
+                           : std::vector<ClassifiedBox>{};
     }));
     EXPECT_FALSE(stays(own, [&](FrameIndex frame) {
-        return std::vector<OrientedBox>{{place(own, frame) + cv::Point2d(40, 0), 22, 11, 0}};
+        return std::vector<ClassifiedBox>{{{place(own, frame) + cv::Point2d(40, 0), 22, 11, 0}, true}};
     })) << "another vehicle speaks for nobody else";
 }
 

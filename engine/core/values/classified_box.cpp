@@ -1,0 +1,17 @@
+#include "core/values/classified_box.h"
+
+#include <cmath>
+
+namespace eyrie {
+
+std::vector<ClassifiedBox> classifiedOf(const std::vector<Detection>& detections) {
+    std::vector<ClassifiedBox> boxes;
+    for (const Detection& detection : detections) {
+        if (detection.rejection != Rejection::none) continue;
+        if (detection.complete || !std::isnan(detection.appearance))
+            boxes.push_back({detection.box, detection.complete, detection.appearance});
+    }
+    return boxes;
+}
+
+}  // namespace eyrie
