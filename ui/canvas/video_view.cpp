@@ -25,7 +25,7 @@ VideoView::VideoView(OverlaySettings& settings, QWidget* parent) : QWidget(paren
     setAttribute(Qt::WA_OpaquePaintEvent);
     setAccessibleName(tr("Video"));
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
-    connect(&settings_, &OverlaySettings::changed, this, qOverload<>(&QWidget::update));
+    connect(&settings_, &OverlaySettings::changed, this, &VideoView::pictureWasChanged);
 }
 
 VideoView::~VideoView() = default;
@@ -34,7 +34,7 @@ void VideoView::setFrame(ViewFrame frame) {
     if (frame.index != frame_.index) pointer_.forgetPlace();
     frame_ = std::move(frame);
     adoptSize();
-    update();
+    pictureWasChanged();
     emit frameGiven(frame_.index);
 }
 
@@ -56,25 +56,25 @@ void VideoView::adoptSize() {
 void VideoView::setSelectedTrack(std::optional<TrackId> track) {
     if (selected_track_ == track) return;
     selected_track_ = track;
-    update();
+    pictureWasChanged();
 }
 
 void VideoView::setStacks(FrameIndex frame, std::vector<StackMark> stacks) {
     if (frame != frame_.index) return;
     frame_.stacks = std::move(stacks);
-    update();
+    pictureWasChanged();
 }
 
 void VideoView::setZones(FrameIndex frame, std::vector<ZoneMark> zones) {
     if (frame != frame_.index || (zones.empty() && frame_.zones.empty())) return;
     frame_.zones = std::move(zones);
-    update();
+    pictureWasChanged();
 }
 
 void VideoView::setNorth(FrameIndex frame, std::optional<double> north_deg) {
     if (frame != frame_.index || north_deg == frame_.north_deg) return;
     frame_.north_deg = north_deg;
-    update();
+    pictureWasChanged();
 }
 
 void VideoView::setVerdicts(FrameIndex frame, bool evaluated, std::vector<VerdictMark> verdicts,
@@ -83,37 +83,37 @@ void VideoView::setVerdicts(FrameIndex frame, bool evaluated, std::vector<Verdic
     frame_.evaluated = evaluated;
     frame_.verdicts = std::move(verdicts);
     frame_.ground_truth = std::move(ground_truth);
-    update();
+    pictureWasChanged();
 }
 
 void VideoView::setInspectedArea(std::optional<OrientedBox> area) {
     if (!area && !inspected_area_) return;
     inspected_area_ = area;
-    update();
+    pictureWasChanged();
 }
 
 void VideoView::setPlaceMark(std::optional<PlaceMark> mark) {
     if (!mark && !place_mark_) return;
     place_mark_ = std::move(mark);
-    update();
+    pictureWasChanged();
 }
 
 void VideoView::setBadge(const QString& text) {
     if (badge_ == text) return;
     badge_ = text;
-    update();
+    pictureWasChanged();
 }
 
 void VideoView::setBadgeOnRight(bool on_right) {
     badge_on_right_ = on_right;
-    update();
+    pictureWasChanged();
 }
 
 void VideoView::setTool(CanvasTool* tool) {
     tool_ = tool;
     hideKeyPointer();
     updateCursorShape();
-    update();
+    pictureWasChanged();
 }
 
 bool VideoView::toolTakes(bool (CanvasTool::*handler)(const QMouseEvent&, const CanvasPlace&),
@@ -236,6 +236,11 @@ void VideoView::setGround(const std::optional<QTransform>& ground_from_image) {
     transformWasChanged();
 }
 
+void VideoView::pictureWasChanged() {
+    picture_changed_ = true;
+    update();
+}
+
 QPointF VideoView::anchor() const {
     if (const auto at = keyPointer()) return *at;
     const QPointF cursor = mapFromGlobal(QPointF(QCursor::pos()));
@@ -245,13 +250,18 @@ QPointF VideoView::anchor() const {
 
 void VideoView::transformWasChanged() {
     pointer_.forgetPlace();
-    update();
+    pictureWasChanged();
     emit transformChanged();
 }
 
 void VideoView::resizeEvent(QResizeEvent*) {
     transform_.setView(size(), devicePixelRatioF());
     transformWasChanged();
+}
+
+void VideoView::changeEvent(QEvent* event) {
+    QWidget::changeEvent(event);
+    if (event->type() == QEvent::FontChange) pictureWasChanged();  // captions are written in it
 }
 
 void VideoView::wheelEvent(QWheelEvent* event) {

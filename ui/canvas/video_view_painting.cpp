@@ -1,6 +1,7 @@
 #include <QPainter>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "canvas/canvas_tool.h"
 #include "canvas/drawing/caption_placer.h"
@@ -22,9 +23,14 @@ constexpr double kInspectedWidth = 2.2;
 constexpr double kHintRoom = 80;  ///< logical px at the lower edge that what a tool wants may cover
 }  // namespace
 
-QImage VideoView::picture() const {
+QImage VideoView::emptyPicture() const {
     QImage image(size() * devicePixelRatioF(), QImage::Format_RGB32);
     image.setDevicePixelRatio(devicePixelRatioF());
+    return image;
+}
+
+QImage VideoView::picture() const {
+    QImage image = emptyPicture();
     QPainter painter(&image);
     painter.setFont(font());
     paint(painter);
@@ -33,19 +39,54 @@ QImage VideoView::picture() const {
 
 void VideoView::paintEvent(QPaintEvent*) {
     // A window moved to a screen of another density repaints without being resized.
-    if (transform_.devicePixelRatio() != devicePixelRatioF()) transform_.setView(size(), devicePixelRatioF());
+    if (transform_.devicePixelRatio() != devicePixelRatioF()) {
+        transform_.setView(size(), devicePixelRatioF());
+        picture_changed_ = true;
+    }
     QPainter painter(this);
-    paint(painter);
+    if (tool_ != nullptr)
+        paintWithTool(painter);
+    else
+        paint(painter);
+}
+
+// A tool draws with every move of the mouse, over a picture that stays: that is painted once then. While the video
+// plays it is another each time, and keeping it would be in vain.
+void VideoView::paintWithTool(QPainter& painter) {
+    if (std::exchange(picture_changed_, false)) {
+        under_tool_ = {};
+        paint(painter);
+        return;
+    }
+    if (under_tool_.isNull()) {
+        under_tool_ = emptyPicture();
+        QPainter kept(&under_tool_);
+        kept.setFont(font());
+        paintPicture(kept);
+    }
+    painter.drawImage(QPointF(0, 0), under_tool_);
+    prepareToDraw(painter);
+    paintTool(painter);
 }
 
 void VideoView::paint(QPainter& painter) const {
-    painter.fillRect(rect(), kGround);
-    paintImage(painter);
+    paintPicture(painter);
+    if (tool_ != nullptr) paintTool(painter);
+}
+
+void VideoView::prepareToDraw(QPainter& painter) const {
     painter.setRenderHint(QPainter::Antialiasing);
+    painter.setRenderHint(QPainter::SmoothPixmapTransform, !transform_.sharp());
     QFont label_font = font();
     label_font.setPointSizeF(std::max(7.0, font().pointSizeF() * 0.85));
     label_font.setBold(true);
     painter.setFont(label_font);
+}
+
+void VideoView::paintPicture(QPainter& painter) const {
+    painter.fillRect(rect(), kGround);
+    paintImage(painter);
+    prepareToDraw(painter);
     static const FrameResult nothing_found;
     const QRectF view = QRectF(rect()).adjusted(-8, -8, 8, 8);
     CaptionPlacer captions(view);
@@ -58,11 +99,12 @@ void VideoView::paint(QPainter& painter) const {
     if (frame_.result && marked) paintInspectedArea(painter);
     if (marked) paintPlaceMark(painter);
     paintBadge(painter);
-    if (tool_ != nullptr) paintTool(painter);
 }
 
 void VideoView::paintTool(QPainter& painter) const {
     const CanvasPlace shown = place();
+    painter.setPen(QPen());
+    painter.setBrush(Qt::NoBrush);
     tool_->paint(painter, shown);
     if (!tool_->takesPlaces()) return;
     pointer_.paint(painter);
