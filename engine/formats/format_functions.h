@@ -79,6 +79,9 @@ class LeftOutRows {
     std::vector<std::string> reasons_;  ///< of the first ones
 };
 
+/// Frames per second in what is written of labels that know none.
+inline constexpr int kAssumedRate_hz = 25;
+
 /// A count with its noun: "1 box", "3 boxes".
 std::string counted(int count, const char* one, const char* many);
 

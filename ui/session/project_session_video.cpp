@@ -13,9 +13,6 @@ namespace eyrie::ui {
 namespace fs = std::filesystem;
 
 namespace {
-/// A project keeps rates as they were measured; nearer than this is the same.
-constexpr double kSameRate = 0.005;
-
 Media mediaOf(const SequenceRecord& sequence) {
     return mediaOfIdentity(sequence.path, {.remembered_hz = sequence.rememberedRate()});
 }
@@ -170,9 +167,8 @@ void ProjectSession::projectOpened(const ProjectLists& lists) {
     const SequenceRecord* known = sequenceOfVideo();
     if (media_->given_rate_hz > 0) {
         keepFrameRate();
-    } else if (known != nullptr &&
-               (std::abs(known->frame_rate_hz - video_->frame_rate_hz) > kSameRate * video_->frame_rate_hz ||
-                (video_->frame_rate_assumed && !known->rate_assumed))) {
+    } else if (known != nullptr && (!isSameRate(known->frame_rate_hz, video_->frame_rate_hz) ||
+                                    (video_->frame_rate_assumed && !known->rate_assumed))) {
         beginOpening({mediaOf(*known), Purpose::remembered_rate});
         return;
     }

@@ -20,13 +20,11 @@
 namespace eyrie::cli {
 namespace {
 
-constexpr double kAround_s = 2;
-
 struct ClipArguments {
     EventArguments events;
     std::optional<int> event;
     std::string frames;
-    double around_s = kAround_s;
+    double around_s = kAroundClip_s;
     bool overlay = false;
     std::string out;
     OutputArguments outputs;

@@ -1,6 +1,5 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <memory>
 
@@ -9,6 +8,7 @@
 #include "cli/arguments/output_arguments.h"
 #include "cli/arguments/preset_arguments.h"
 #include "cli/arguments/sweep_arguments.h"
+#include "cli/batch/batch_inputs.h"
 #include "cli/command.h"
 #include "cli/common_options.h"
 #include "cli/interrupt.h"
@@ -42,19 +42,12 @@ struct SweepArguments {
     bool quiet = false;
 };
 
-/// The positions to do, from "3/8".
+/// The positions to do, of "3/8" those of that part.
 std::vector<int> chosenPositions(const SweepPlan& plan, const std::string& shard) {
     const std::vector<int> order = workOrder(plan);
     if (shard.empty()) return order;
-    int number = 0;
-    int count = 0;
-    const char* end = shard.data() + shard.size();
-    const auto first = std::from_chars(shard.data(), end, number);
-    const bool slash = first.ec == std::errc() && first.ptr != end && *first.ptr == '/';
-    const auto second = slash ? std::from_chars(first.ptr + 1, end, count) : first;
-    if (!slash || second.ec != std::errc() || second.ptr != end)
-        throw Error(ErrorKind::parameter, "--shard " + shard + ": expected I/N with I from 1 to N, e.g. 3/8");
-    return shardOf(order, number, count);
+    const Shard chosen = shardFrom(shard);
+    return shardOf(order, chosen.part, chosen.parts);
 }
 
 /// Parameters that all points share. Of stored runs they are those of the first, unless a preset is named.
@@ -228,7 +221,8 @@ void addSweepCommand(CLI::App& app, int& exit_code) {
     arguments->preset.addTo(*command);
     command->add_option("--out", arguments->out, "Project file for the points; made when it does not exist");
     command->add_option("--name", arguments->name, "A name for the sweep");
-    command->add_option("--shard", arguments->shard, "Do only part I of N, written I/N; eyrie-cli merge joins them");
+    command->add_option("--shard", arguments->shard,
+                        "Do only one part of the points, PART/PARTS, e.g. 2/8; eyrie-cli merge joins them");
     command->add_flag("--resume", arguments->resume, "Resume a sweep that was stopped");
     command->add_flag("--yes", arguments->yes, "Start even with more than 10000 points");
     addBest(*command, arguments->criterion);

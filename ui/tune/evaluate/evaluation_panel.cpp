@@ -168,7 +168,7 @@ void EvaluationPanel::refresh() {
     forgetScoreCurve();
     pages_->setCurrentIndex(0);
     if (evaluation_.working()) {
-        empty_->setTexts(tr("The run is being compared with the ground truth…"));
+        empty_->setTexts(EvaluationSession::workingText());
         return;
     }
     const bool has_run = session_.currentRun().has_value() && !session_.running();

@@ -199,7 +199,7 @@ void EvaluationDocks::showErrors() {
         errors_->emptyState()->setTexts(tr("No errors: every object was found in every frame."));
     else
         errors_->emptyState()->setTexts(
-            evaluation_->working() ? tr("The run is being compared with the ground truth…")
+            evaluation_->working() ? EvaluationSession::workingText()
             : evaluation_->obstacle().isEmpty()
                 ? tr("Every miss, false alarm, switch, fragment, split and merge of the run is listed here with its "
                      "probable cause, once it has been compared with ground truth.")
@@ -225,12 +225,15 @@ void EvaluationDocks::wantChips() {
     chips_->request(std::move(wishes));
 }
 
+QString EvaluationDocks::nothingEvaluatedText() {
+    return tr("Nothing was evaluated yet: open the Evaluation dock.");
+}
+
 void EvaluationDocks::step(int direction) {
     const int id = errors_->neighbour(direction);
     if (id == 0) {
-        messages_.showMessage(MessageKind::info, evaluation_->evaluation()
-                                                     ? tr("No error is listed.")
-                                                     : tr("Nothing was evaluated yet: open the Evaluation dock."));
+        messages_.showMessage(MessageKind::info,
+                              evaluation_->evaluation() ? tr("No error is listed.") : nothingEvaluatedText());
         return;
     }
     goTo(id);
@@ -329,7 +332,7 @@ void EvaluationDocks::correctTruth() {
 void EvaluationDocks::askForReport() {
     const auto& evaluation = evaluation_->evaluation();
     if (!evaluation) {
-        messages_.showMessage(MessageKind::info, tr("Nothing was evaluated yet: open the Evaluation dock."));
+        messages_.showMessage(MessageKind::info, nothingEvaluatedText());
         return;
     }
     const QString name = QFileInfo(QString::fromStdString(evaluation->run.sequence.path)).completeBaseName();
@@ -340,7 +343,7 @@ void EvaluationDocks::askForReport() {
 
 void EvaluationDocks::writeReport(const QString& path) {
     if (report_->working()) {
-        messages_.showMessage(MessageKind::info, tr("A report is being written. Wait until it is done."));
+        messages_.showMessage(MessageKind::info, ReportWriter::workingText());
         return;
     }
     report_->write(path.toStdString(), evaluation_->evaluation(), session_.media(), session_.project());

@@ -59,6 +59,7 @@ class EvaluationDocks : public QObject {
     void whyRequested(const OrientedBox& box, const QString& about);
 
  private:
+    static QString nothingEvaluatedText();
     void wireList();
     void wireReport();
     void askForReport();
