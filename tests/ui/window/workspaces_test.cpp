@@ -28,6 +28,7 @@
 #include "ui/support/ui_support.h"
 #include "ui/support/ui_test.h"
 #include "ui/window/shown_window.h"
+#include "window/docks/watching_docks.h"
 #include "window/main_window.h"
 #include "window/theme.h"
 #include "workspace/dock_registry.h"
@@ -271,7 +272,8 @@ class WorkspacesTest : public QObject {
             // Lists, card and inspector are filled.
             const auto filled = [&] {
                 return window->events().review().state() == EventReview::State::found &&
-                       window->card().card().subject() && !window->findChild<TrackInspector*>()->text().isEmpty();
+                       window->watching().card().card().subject() &&
+                       !window->findChild<TrackInspector*>()->text().isEmpty();
             };
             QVERIFY(QTest::qWaitFor(filled, kPatience_ms));
             for (const Qt::Key key : {Qt::Key_1, Qt::Key_2, Qt::Key_3}) {
