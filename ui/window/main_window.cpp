@@ -97,58 +97,20 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     inspection_ = new Inspection(session_, this);
     docks_ = new DockRegistry(*this);
     measured_ = new EvaluationSession(session_, this);
-    review_ = new ReviewDocks({session_, *inspection_, *measured_, *docks_, *actions_, overlays_, *guard_, *messages_});
-    events_ = new EventsDock({session_, *canvas_, *timeline_, *docks_, *actions_, *messages_});
-    review_->setDoingsWanted([this] { events_->review().setWanted(); });
-    review_->setQueryChanged([this] {
-        TracksPanel& tracks = review_->tracks();
-        events_->panel().setQuery(tracks.query(), [&tracks] { tracks.chips().clear(); });
-    });
-    events_->correcting().setList(review_->tracks());
-    auto* pictures = new PictureColumn(review_->tracks(), TracksModel::picture_column, session_, [this](int track) {
-        const auto& run = events_->review().tracks();
-        return run ? placeOfTrack(*run, track) : std::nullopt;
-    });
-    whenAny(events_, pictures, &PictureColumn::refresh, &EventsDock::tracksRead);
-    docks_->watch(DockId::tracks, &events_->correcting(), [this](bool) { events_->correcting().enableActions(); });
-    connect(events_, &EventsDock::eventsShown, this, [this] {
-        const auto& found = events_->review().found();
-        review_->tracks().setDoings(found ? found->doings : nullptr);
-    });
+    buildReview();
     watching_ = new WatchingDocks(
         {session_, *canvas_, *timeline_, *review_, *events_, *docks_, *actions_, *messages_, overlays_, *this});
-    VideoEarth& earth = watching_->earth().earth();
     event_report_ = new EventReport({session_, *events_, *messages_, *this});
     new RunHandover({session_, *events_, *actions_, *messages_, *this});
     tuning_ = new Tuning(
         {session_, *canvas_, *docks_, review_->parameterForm(), *actions_, review_->parameters(), overlays_, *this});
     buildEvaluation();
     new TimelineThumbnails(session_, *timeline_, this);
-    auto* binding = new TimelineBinding(session_, *timeline_, review_->stageTimes(), this);
-    binding->setClock([&earth](FrameIndex frame) { return earth.clockText(frame); });
-    status_ = new StatusFields(session_, *statusBar());
-    status_->setPlaces({[this, &earth](QPointF px) { return earth.placeOf(session_.shownFrame(), px); },
-                        [&earth] { return earth.origin(); }});
-    whenAny(&earth, status_, &StatusFields::showPlace, &VideoEarth::changed);
-    whenAny(&earth, this, &MainWindow::showClock, &VideoEarth::clockChanged);
-    showClock();
-    TrackInspector& inspector = review_->inspector().track();
-    inspector.setCourse([&earth](FrameIndex frame, const OrientedBox& box) {
-        return earth.courseOf(frame, {box.centre.x, box.centre.y}, box.heading);
-    });
-    whenAny(&earth, &inspector, &TrackInspector::showCourse, &VideoEarth::changed);
+    buildClock();
     labelling_ = new LabelWorkspace(
         {session_, *canvas_, *timeline_, *label_rows_, *messages_, *actions_, *docks_, keys_, *this});
     evaluation_->join(*labelling_);
-    auto* told = new RunMessages(
-        session_, *messages_, *docks_, [this] { files_->locateVideo(); }, this);
-    const auto tell_events = [this, told] {
-        const auto& found = events_->review().found();
-        // What a run that works has found so far is no news of its end.
-        if (found && !events_->review().asOf() && session_.currentRun())
-            told->tellEvents(*session_.currentRun(), found->events.size());
-    };
-    whenAny(events_, told, tell_events, &EventsDock::eventsShown);
+    buildRunMessages();
     files_ =
         new OpenedFiles({session_, settings_, *actions_, *messages_, *guard_, *run_bar_, *welcome_, *canvas_, *this});
     live_ = new LiveWatching({session_, settings_, *actions_, *guard_, [this] { files_->rememberView(); }, *this});
@@ -279,6 +241,56 @@ void MainWindow::buildWorkspaces() {
     connect(timeline_, &TimelineView::kindsShownWanted, actions_->event_rows, &QAction::setChecked);
     actions_->event_rows->setChecked(settings_.value(kEventRows, true).toBool());
     workspaces_->restore(settings_.value(kWorkspaces, {}).toMap());
+}
+
+void MainWindow::buildReview() {
+    review_ = new ReviewDocks({session_, *inspection_, *measured_, *docks_, *actions_, overlays_, *guard_, *messages_});
+    events_ = new EventsDock({session_, *canvas_, *timeline_, *docks_, *actions_, *messages_});
+    review_->setDoingsWanted([this] { events_->review().setWanted(); });
+    review_->setQueryChanged([this] {
+        TracksPanel& tracks = review_->tracks();
+        events_->panel().setQuery(tracks.query(), [&tracks] { tracks.chips().clear(); });
+    });
+    events_->correcting().setList(review_->tracks());
+    auto* pictures = new PictureColumn(review_->tracks(), TracksModel::picture_column, session_, [this](int track) {
+        const auto& run = events_->review().tracks();
+        return run ? placeOfTrack(*run, track) : std::nullopt;
+    });
+    whenAny(events_, pictures, &PictureColumn::refresh, &EventsDock::tracksRead);
+    docks_->watch(DockId::tracks, &events_->correcting(), [this](bool) { events_->correcting().enableActions(); });
+    connect(events_, &EventsDock::eventsShown, this, [this] {
+        const auto& found = events_->review().found();
+        review_->tracks().setDoings(found ? found->doings : nullptr);
+    });
+}
+
+void MainWindow::buildClock() {
+    VideoEarth& earth = watching_->earth().earth();
+    auto* binding = new TimelineBinding(session_, *timeline_, review_->stageTimes(), this);
+    binding->setClock([&earth](FrameIndex frame) { return earth.clockText(frame); });
+    status_ = new StatusFields(session_, *statusBar());
+    status_->setPlaces({[this, &earth](QPointF px) { return earth.placeOf(session_.shownFrame(), px); },
+                        [&earth] { return earth.origin(); }});
+    whenAny(&earth, status_, &StatusFields::showPlace, &VideoEarth::changed);
+    whenAny(&earth, this, &MainWindow::showClock, &VideoEarth::clockChanged);
+    showClock();
+    TrackInspector& inspector = review_->inspector().track();
+    inspector.setCourse([&earth](FrameIndex frame, const OrientedBox& box) {
+        return earth.courseOf(frame, {box.centre.x, box.centre.y}, box.heading);
+    });
+    whenAny(&earth, &inspector, &TrackInspector::showCourse, &VideoEarth::changed);
+}
+
+void MainWindow::buildRunMessages() {
+    auto* told = new RunMessages(
+        session_, *messages_, *docks_, [this] { files_->locateVideo(); }, this);
+    const auto tell_events = [this, told] {
+        const auto& found = events_->review().found();
+        // What a run that works has found so far is no news of its end.
+        if (found && !events_->review().asOf() && session_.currentRun())
+            told->tellEvents(*session_.currentRun(), found->events.size());
+    };
+    whenAny(events_, told, tell_events, &EventsDock::eventsShown);
 }
 
 void MainWindow::buildEvaluation() {

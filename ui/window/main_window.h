@@ -81,7 +81,11 @@ class MainWindow : public QMainWindow {
     void buildCentre();
     void buildMenus();
     void buildToolBar();
+    void buildReview();
+    /// Times of the day and places on the earth in the timeline, the status bar and the inspector.
+    void buildClock();
     void buildEvaluation();
+    void buildRunMessages();
     void buildWorkspaces();
     void wireCanvas();
     void wireSession();
