@@ -22,6 +22,7 @@ struct FileHead {
     std::string name() const { return path.filename().string(); }
 };
 
+/// A format of labels: what is said of it, and the functions that recognise, read and write it.
 struct LabelFormat {
     LabelFormatInfo info;
     bool needs_id = false;

@@ -4,6 +4,7 @@
 
 namespace eyrie::ui {
 
+/// A set of colours for overlays.
 enum class PaletteKind {
     thesis,       ///< the thesis' colours, but for corners
     colour_blind  ///< told apart with any colour vision (after Okabe and Ito's set)

@@ -76,6 +76,7 @@ class FrameSource {
     virtual bool hasGrown() const noexcept { return false; }
 };
 
+/// How a video is opened.
 struct SourceOptions {
     double frame_rate_hz =
         0;  ///< > 0 overrides the video's own rate (needed for image folders); 0: own, 25 for folders
