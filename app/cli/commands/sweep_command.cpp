@@ -64,8 +64,7 @@ SweepCriterion criterionOf(const SweepArguments& arguments, const SweepPlan& pla
     SweepCriterion criterion = usualCriterion(plan);
     criterion.key = measureText(arguments.criterion).key;
     if (!arguments.of.empty()) criterion.tracks = arguments.of == "tracks";
-    const std::string group = measureText(criterion.key).group;
-    if (group == "tracking" || group == "identity") criterion.tracks = true;
+    if (isOfTracks(measureText(criterion.key).group)) criterion.tracks = true;
     return criterion;
 }
 

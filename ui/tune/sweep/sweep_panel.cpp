@@ -257,8 +257,7 @@ void SweepPanel::setView(SweepView view) {
 SweepCriterion SweepPanel::criterion() const {
     SweepCriterion criterion;
     criterion.key = measure_->currentData().toString().toStdString();
-    const std::string group = measureText(criterion.key).group;
-    criterion.tracks = of_->currentIndex() == 1 || group == "tracking" || group == "identity";
+    criterion.tracks = of_->currentIndex() == 1 || isOfTracks(measureText(criterion.key).group);
     if (overlap_->currentData().isValid()) criterion.overlap = overlap_->currentData().toDouble();
     return criterion;
 }
