@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "session/project/project_location.h"
@@ -72,15 +71,7 @@ void ProjectSession::mediaOpened(int ticket, const OpenedVideo& video) {
     }
     if (pending.purpose == Purpose::moved && !isSameVideo(*pending.sequence, video.info)) {
         showWithoutVideo(*pending.sequence, pending.run,
-                         tr("%1 is another video: it has %2 frames of %3 × %4; that of the project has %5 of %6 × %7. "
-                            "Locate the video that the runs were made with.")
-                             .arg(QString::fromStdString(pending.media.identity))
-                             .arg(video.info.frame_count)
-                             .arg(video.info.size.width)
-                             .arg(video.info.size.height)
-                             .arg(pending.sequence->frame_count)
-                             .arg(pending.sequence->size.width)
-                             .arg(pending.sequence->size.height));
+                         whyAnotherVideo(pending.media.identity, video.info, *pending.sequence));
         return;
     }
     const bool same_video = pending.purpose == Purpose::other_rate || pending.purpose == Purpose::remembered_rate;
@@ -255,13 +246,7 @@ void ProjectSession::setFrameRate(double frames_per_second) {
 }
 
 SequenceRecord ProjectSession::sequenceToStore() const {
-    SequenceRecord sequence;
-    sequence.path = media_->identity;
-    sequence.size = video_->size;
-    sequence.frame_count = video_->frame_count;
-    sequence.frame_rate_hz = video_->frame_rate_hz;
-    sequence.rate_assumed = video_->frame_rate_assumed;
-    return sequence;
+    return sequenceOf(*media_, *video_);
 }
 
 void ProjectSession::keepFrameRate() {
@@ -300,18 +285,8 @@ void ProjectSession::adoptMovedVideo(const SequenceRecord& known, const std::str
 
 void ProjectSession::showWithoutVideo(const SequenceRecord& sequence, std::optional<int> run_id,
                                       const QString& message) {
-    OpenedVideo video;
-    VideoInfo& info = video.info;
-    info.path = sequence.path;
-    info.size = sequence.size;
-    info.frame_count = sequence.frame_count;
-    info.frame_rate_hz = sequence.frame_rate_hz;
-    info.frame_rate_assumed = sequence.rate_assumed;
-    video.times_us.resize(static_cast<size_t>(std::max(0, info.frame_count)));
-    for (size_t i = 0; i < video.times_us.size(); ++i)
-        video.times_us[i] = std::llround(static_cast<double>(i) * 1e6 / std::max(0.001, info.frame_rate_hz));
     loader_.closeMedia();
-    adoptVideo(mediaOf(sequence), video, false);
+    adoptVideo(mediaOf(sequence), videoNotThere(sequence), false);
     missing_ = sequence;
     showProject(run_id);
     emit videoNotFound(message);
