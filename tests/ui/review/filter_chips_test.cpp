@@ -9,7 +9,7 @@
 #include <QToolButton>
 
 #include "review/tracks/tracks_panel.h"
-#include "ui/review/driven_tracks.h"
+#include "ui/review/filtered_tracks.h"
 #include "ui/support/ui_support.h"
 #include "ui/support/ui_test.h"
 #include "widgets/tables/table_roles.h"

@@ -5,7 +5,7 @@
 #include <QTest>
 #include <numbers>
 
-#include "ui/review/driven_tracks.h"
+#include "ui/review/filtered_tracks.h"
 #include "ui/support/ui_support.h"
 #include "ui/support/ui_test.h"
 
