@@ -2,6 +2,8 @@
 
 #include <QColor>
 
+#include "canvas/drawing/mark_colours.h"
+
 namespace eyrie::ui {
 
 /// A set of colours for overlays.
@@ -30,7 +32,7 @@ struct OverlayColours {
 };
 
 inline OverlayColours overlayColours(PaletteKind kind) {
-    const QColor edge(12, 12, 14);
+    const QColor edge = edgeColour();
     if (kind == PaletteKind::colour_blind)
         return {.stationary_corner = QColor(213, 94, 0),
                 .motion_vector = QColor(240, 228, 66),

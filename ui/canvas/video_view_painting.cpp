@@ -6,6 +6,7 @@
 #include "canvas/canvas_tool.h"
 #include "canvas/drawing/caption_placer.h"
 #include "canvas/drawing/edged_painter.h"
+#include "canvas/drawing/mark_colours.h"
 #include "canvas/drawing/tool_hint.h"
 #include "canvas/layers/overlay_layer.h"
 #include "canvas/video_view.h"
@@ -17,7 +18,6 @@ namespace eyrie::ui {
 namespace {
 const QColor kGround(34, 36, 40);          ///< around the picture, in both themes: overlays keep their contrast
 const QColor kMissingPicture(58, 61, 66);  ///< where a picture should be and is not
-const QColor kBadgeGround(255, 200, 40);
 const QColor kBadgeText(30, 24, 0);
 constexpr double kInspectedWidth = 2.2;
 constexpr double kHintRoom = 80;  ///< logical px at the lower edge that what a tool wants may cover
@@ -140,7 +140,7 @@ void VideoView::paintBadge(QPainter& painter) const {
     QRectF plate(10, 10, text.width() + 20, text.height() + 10);
     if (badge_on_right_) plate.moveRight(width() - 10);
     painter.setPen(Qt::NoPen);
-    painter.setBrush(kBadgeGround);
+    painter.setBrush(toolColour());
     painter.drawRoundedRect(plate, 4, 4);
     painter.setPen(kBadgeText);
     painter.drawText(plate, Qt::AlignCenter, badge_);

@@ -9,12 +9,12 @@
 #include <utility>
 
 #include "canvas/drawing/edged_painter.h"
+#include "canvas/drawing/mark_colours.h"
 #include "label/canvas/label_layer.h"
 
 namespace eyrie::ui {
 
 namespace {
-const QColor kToolEdge(12, 12, 14);
 const QColor kRegionColour(255, 160, 40);
 constexpr double kHandleHitMargin = 4;    ///< logical px
 constexpr double kToolDragThreshold = 4;  ///< logical px
@@ -311,11 +311,11 @@ void LabelTool::paint(QPainter& painter, const CanvasPlace& place) const {
         const OrientedBox& box = draft_ ? *draft_ : selected->box;
         const auto handles = boxHandles(box, place.transform);
         QVector<QLineF> arm{{handles[static_cast<std::size_t>(BoxHandle::front)].second, handles.back().second}};
-        drawEdgedLines(painter, arm, {selected->colour, kToolEdge, 1.2});
+        drawEdgedLines(painter, arm, {selected->colour, edgeColour(), 1.2});
         for (const auto& [handle, at] : handles) {
             const bool hot = handle == (handle_ ? handle_ : hovered_);
             const double size = hot ? 5 : handle == BoxHandle::centre ? 2.5 : 3.5;
-            painter.setPen(QPen(kToolEdge, 1.2));
+            painter.setPen(QPen(edgeColour(), 1.2));
             painter.setBrush(hot ? QColor(255, 255, 255) : selected->colour);
             if (handle == BoxHandle::turn || handle == BoxHandle::centre)
                 painter.drawEllipse(at, size + 0.5, size + 0.5);
@@ -328,7 +328,7 @@ void LabelTool::paint(QPainter& painter, const CanvasPlace& place) const {
         QVector<QLineF> lines;
         appendBox(lines, *draft_, place.transform, place.view);
         appendHeading(lines, *draft_, place.transform, place.view);
-        drawEdgedLines(painter, lines, {scene_.drawn_colour, kToolEdge, 2});
+        drawEdgedLines(painter, lines, {scene_.drawn_colour, edgeColour(), 2});
     }
     if (region_) {
         QPolygonF corners;
