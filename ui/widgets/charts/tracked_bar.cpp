@@ -1,14 +1,12 @@
 #include "widgets/charts/tracked_bar.h"
 
-#include <QApplication>
-#include <QClipboard>
 #include <QContextMenuEvent>
 #include <QHelpEvent>
-#include <QMenu>
 #include <QPainter>
 #include <QToolTip>
 #include <algorithm>
 
+#include "widgets/charts/copy_menu.h"
 #include "widgets/theme_colours.h"
 
 namespace eyrie::ui {
@@ -131,10 +129,7 @@ void TrackedBar::mouseReleaseEvent(QMouseEvent* event) {
 }
 
 void TrackedBar::contextMenuEvent(QContextMenuEvent* event) {
-    QMenu menu;
-    menu.addAction(tr("Copy as text"), this, [this] { QApplication::clipboard()->setText(text()); });
-    menu.addAction(tr("Copy as picture"), this, [this] { QApplication::clipboard()->setPixmap(grab()); });
-    menu.exec(event->globalPos());
+    offerCopies(*this, text(), event->globalPos());
 }
 
 }  // namespace eyrie::ui
