@@ -7,6 +7,7 @@
 #include "canvas/drawing/image_convert.h"
 #include "io/video/frame_cache.h"
 #include "rerun/replay.h"
+#include "session/frames/picture_budget.h"
 #include "session/frames/stored_frames.h"
 #include "tune/compare/comparison_computation.h"
 #include "tune/compare/computed_frames.h"
@@ -15,7 +16,6 @@ namespace eyrie::ui {
 
 namespace {
 
-constexpr std::size_t kSidePictureBudget = std::size_t{256} << 20U;
 constexpr int kTrailLength = 40;   ///< frames
 constexpr int kSideReadAhead = 8;  ///< frames
 
@@ -64,7 +64,7 @@ class ComparisonLoader::Worker {
             auto source = pair.media.open({}, stop);
             if (stop.stop_requested()) return;
             FrameCacheOptions options;
-            options.max_bytes = kSidePictureBudget;
+            options.max_bytes = pictureBudget(PictureUse::comparison);
             pictures_ = std::make_unique<FrameCache>(std::move(source), options);
         } catch (const std::exception&) {
             if (!stop.stop_requested()) throw;
