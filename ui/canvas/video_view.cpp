@@ -299,7 +299,7 @@ void VideoView::paint(QPainter& painter) const {
 }
 
 void VideoView::paintTool(QPainter& painter) const {
-    const CanvasPlace shown = place();
+    const CanvasPlace shown = place(pointer_.at().has_value());
     tool_->paint(painter, shown);
     if (!tool_->takesPlaces()) return;
     pointer_.paint(painter);
