@@ -291,7 +291,8 @@ RunSummary ChainRun::run(FrameSource& source, FrameRange range, ChainObserver& o
         summary.outcome = summary.frames_done == summary.frames_total ? RunOutcome::finished : RunOutcome::stopped;
         if (summary.outcome == RunOutcome::finished && range.last == count - 1 && source.hasGrown())
             summary.message = "the video has grown since it was opened; the run ends with frame " +
-                              std::to_string(range.last) + ", which was the last one then";
+                              std::to_string(range.last) +
+                              ", which was the last one then; open it again and make a run over the rest";
         if (summary.outcome == RunOutcome::stopped && summary.frames_done > 0 && observer.stateKeeping()) {
             // The first half is some frames ahead: these wait until the run goes on.
             queue.letGo();

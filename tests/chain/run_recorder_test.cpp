@@ -77,7 +77,8 @@ TEST(RunRecorder, aRunToTheEndOfAVideoThatHasGrownMeanwhileSaysSo) {
     const RunRecord run = record(folder / "p.eyrie", source, 1000);
     EXPECT_EQ(run.state, RunState::finished);
     EXPECT_EQ(run.message,
-              "the video has grown since it was opened; the run ends with frame 7, which was the last one then");
+              "the video has grown since it was opened; the run ends with frame 7, which was the last one then; "
+              "open it again and make a run over the rest");
     EXPECT_EQ(record(folder / "p.eyrie", source, 1000, {0, 5}).message, "") << "whoever asks for a part has that";
     EXPECT_EQ(record(folder / "p.eyrie", source, 3).message, "");
 }

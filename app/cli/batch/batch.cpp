@@ -167,7 +167,8 @@ void Batch::begin(std::size_t number) {
     std::filesystem::create_directories(row.project.parent_path(), failed);
     if (failed) {
         return close(number, BatchState::failed,
-                     row.project.parent_path().string() + ": the folder cannot be made: " + failed.message());
+                     row.project.parent_path().string() + ": the folder cannot be made (" + failed.message() +
+                         "); make it writable, or choose another with --out");
     }
     std::vector<std::string> words{"run", row.input.path.string(), "--project", row.project.string(), "--quiet"};
     if (!row.anew) words.emplace_back("--resume");
