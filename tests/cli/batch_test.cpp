@@ -439,6 +439,11 @@ TEST_F(Batches, whatCannotBeIsRefusedBeforeTheWork) {
     EXPECT_EQ(batch({"--gsd", "-1"}).exit_code, 2);
     EXPECT_EQ(test::runProcess({test::programPath("eyrie-cli"), "batch", at("absent"), "--out", at("out")}).exit_code,
               3);
+    const auto no_folder =
+        test::runProcess({test::programPath("eyrie-cli"), "batch", at("in"), "--out", at("in/a.mp4/out")});
+    EXPECT_EQ(no_folder.exit_code, 4);
+    EXPECT_THAT(no_folder.errors, HasSubstr("in/a.mp4/out: the folder cannot be made"));
+    EXPECT_THAT(no_folder.errors, HasSubstr("choose another with --out"));
     EXPECT_EQ(test::runProcess({test::programPath("eyrie-cli"), "batch", at("in"), "--out", at("in/a.mp4")}).exit_code,
               4);
     write("out/batch.csv/x", "a folder where the summary should be");
