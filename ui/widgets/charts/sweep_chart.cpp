@@ -5,12 +5,14 @@
 #include <QApplication>
 #include <QClipboard>
 #include <QContextMenuEvent>
+#include <QKeyEvent>
 #include <QMenu>
 #include <QMouseEvent>
 #include <QToolTip>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "widgets/charts/plot_colours.h"
@@ -44,6 +46,8 @@ SweepChart::SweepChart(QWidget* parent) : QWidget(parent), plot_(new QCustomPlot
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(plot_);
+    setFocusPolicy(Qt::StrongFocus);
+    setAccessibleName(tr("Chart of the sweep"));
     plot_->setFocusPolicy(Qt::NoFocus);
     plot_->setMouseTracking(true);
     plot_->installEventFilter(this);
@@ -280,6 +284,37 @@ int SweepChart::pointAt(QPointF place, QString& text) const {
         }
     }
     return found;
+}
+
+int SweepChart::pointBeside(int right, int up) const {
+    if (data_.isMap()) {
+        const auto columns = static_cast<int>(data_.columns.size());
+        const int column = chosen_ % columns + right;
+        const int row = chosen_ / columns + up;
+        const bool there = column >= 0 && row >= 0 && column < columns && row < data_.rows.size();
+        return chosen_ >= 0 && there ? row * columns + column : -1;
+    }
+    for (std::size_t line = 0; line < data_.series.size(); ++line) {
+        const std::vector<int>& points = data_.series[line].positions;
+        const auto at = std::find(points.begin(), points.end(), chosen_);
+        if (at == points.end()) continue;
+        const std::ptrdiff_t beside = at - points.begin() + right;
+        const std::ptrdiff_t other = static_cast<std::ptrdiff_t>(line) + up;
+        if (other < 0 || other >= std::ssize(data_.series)) return -1;
+        const std::vector<int>& there = data_.series[static_cast<std::size_t>(other)].positions;
+        return beside >= 0 && beside < std::ssize(there) ? there[static_cast<std::size_t>(beside)] : -1;
+    }
+    return -1;
+}
+
+void SweepChart::keyPressEvent(QKeyEvent* event) {
+    const int right = (event->key() == Qt::Key_Right) - (event->key() == Qt::Key_Left);
+    const int up = (event->key() == Qt::Key_Up) - (event->key() == Qt::Key_Down);
+    if (right == 0 && up == 0) {
+        QWidget::keyPressEvent(event);
+        return;
+    }
+    if (const int position = pointBeside(right, up); position >= 0) emit pointClicked(position);
 }
 
 bool SweepChart::eventFilter(QObject* watched, QEvent* event) {
