@@ -8,6 +8,7 @@
 #include <QKeyEvent>
 #include <QMenu>
 #include <QMouseEvent>
+#include <QPoint>
 #include <QToolTip>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -38,6 +39,23 @@ QCPColorGradient brightnessGradient() {
     for (const auto& [at, colour] : stops) gradient.setColorStopAt(at, colour);
     gradient.setNanHandling(QCPColorGradient::nhTransparent);
     return gradient;
+}
+
+/// To the right and up, as an arrow key says; nothing by other keys.
+QPoint stepOf(const QKeyEvent& key) {
+    if ((key.modifiers() & ~Qt::KeypadModifier) != Qt::NoModifier) return {};
+    switch (key.key()) {
+        case Qt::Key_Left:
+            return {-1, 0};
+        case Qt::Key_Right:
+            return {1, 0};
+        case Qt::Key_Up:
+            return {0, 1};
+        case Qt::Key_Down:
+            return {0, -1};
+        default:
+            return {};
+    }
 }
 
 }  // namespace
@@ -307,14 +325,22 @@ int SweepChart::pointBeside(int right, int up) const {
     return -1;
 }
 
+bool SweepChart::event(QEvent* event) {
+    // Elsewhere arrows step through the video.
+    if (event->type() == QEvent::ShortcutOverride && stepOf(*static_cast<QKeyEvent*>(event)) != QPoint()) {
+        event->accept();
+        return true;
+    }
+    return QWidget::event(event);
+}
+
 void SweepChart::keyPressEvent(QKeyEvent* event) {
-    const int right = (event->key() == Qt::Key_Right) - (event->key() == Qt::Key_Left);
-    const int up = (event->key() == Qt::Key_Up) - (event->key() == Qt::Key_Down);
-    if (right == 0 && up == 0) {
+    const QPoint step = stepOf(*event);
+    if (step.isNull()) {
         QWidget::keyPressEvent(event);
         return;
     }
-    if (const int position = pointBeside(right, up); position >= 0) emit pointClicked(position);
+    if (const int position = pointBeside(step.x(), step.y()); position >= 0) emit pointClicked(position);
 }
 
 bool SweepChart::eventFilter(QObject* watched, QEvent* event) {
