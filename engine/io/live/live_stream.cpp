@@ -157,7 +157,7 @@ struct LiveStream::Receiver {
             const double left = options.give_up_s - liveSecondsSince(last_picture);
             if (left <= 0) {
                 endFor("no picture came for " + std::to_string(static_cast<int>(options.give_up_s)) + " s" +
-                       (why.empty() ? "" : " (" + why + ")"));
+                       (why.empty() ? "" : " (" + why + ")") + "; check that the source sends, and start another run");
                 return nullptr;
             }
             try {
