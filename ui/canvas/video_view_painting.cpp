@@ -102,7 +102,7 @@ void VideoView::paintPicture(QPainter& painter) const {
 }
 
 void VideoView::paintTool(QPainter& painter) const {
-    const CanvasPlace shown = place();
+    const CanvasPlace shown = place(pointer_.at().has_value());
     painter.setPen(QPen());
     painter.setBrush(Qt::NoBrush);
     tool_->paint(painter, shown);

@@ -22,11 +22,12 @@ LabelActions::LabelActions(KeyBindings& keys, QWidget& window, QWidget& canvas)
     try_to_write = add(tr("Try again to label in this window"), {});
 
     section(tr("Box"));
-    draw = addToggle(tr("&Draw: click rear, then front (Shift: then width)"), {QKeySequence(Qt::Key_B)}, false);
+    draw =
+        addToggle(tr("&Draw: click the rear, then the front (Shift: then a side)"), {QKeySequence(Qt::Key_B)}, false);
     draw->setIcon(QIcon::fromTheme(QStringLiteral("draw-rectangle")));
     draw->setIconText(tr("Draw"));
     redraw = add(tr("Redraw the selected object's box in this frame"), {QKeySequence(tr("Ctrl+B"))});
-    region = addToggle(tr("Draw an ignore region: click its corners, double-click to end"),
+    region = addToggle(tr("Draw an ignore region: click its corners, double-click to finish"),
                        {QKeySequence(tr("Ctrl+G"))}, false);
     delete_region = add(tr("Delete the ignore region under the cursor"), {QKeySequence(tr("Ctrl+Shift+G"))});
     region_begins = add(tr("Begin the ignore region under the cursor here"), {QKeySequence(tr("Ctrl+["))});

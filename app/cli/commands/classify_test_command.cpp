@@ -133,7 +133,9 @@ void prepareFolder(const ClassifyTestArguments& arguments, const std::vector<Des
     arguments.outputs.check(files, {folders.begin(), folders.end()});
     std::error_code error;
     fs::create_directories(arguments.out, error);
-    if (error) throw Error(ErrorKind::output, arguments.out + ": the folder cannot be made: " + error.message());
+    if (error)
+        throw Error(ErrorKind::output,
+                    arguments.out + ": the folder cannot be made (" + error.message() + "); choose another with --out");
 }
 
 int run(const ClassifyTestArguments& arguments) {

@@ -73,7 +73,8 @@ void printClock(const MetadataStream& stream, const MetadataTimeline* timeline) 
     if (first) std::printf("  Clock: %s to %s\n", utcText(*first).c_str(), utcText(*last).c_str());
     if (stream.without_time > 0) std::printf("  %d without a time\n", stream.without_time);
     if (stream.steps_back > 0 || stream.leaps > 0)
-        std::printf("  Clock goes back %d×, leaps ahead by more than 10 s %d×\n", stream.steps_back, stream.leaps);
+        std::printf("  Clock goes back %d×, leaps ahead by more than 10 s %d×%s\n", stream.steps_back, stream.leaps,
+                    firstPlaceText(stream.first_jump).c_str());
     if (timeline != nullptr && timeline->placedByStamp() + timeline->placedByFile() > 0)
         std::printf("  Placed in the video: %d by their stamp, %d by where they lie in the file\n",
                     timeline->placedByStamp(), timeline->placedByFile());

@@ -194,7 +194,8 @@ class SweepPanelTest : public QObject {
         SweepPanel& panel = window->review().sweeps();
         panel.sweeps().start(request({"gradient.quantile=0.11,0.23"}));
         QVERIFY(waitFor([&] { return !panel.sweeps().running(); }));
-        emit panel.chart().pointClicked(1);
+        emit panel.chart().pointClicked(0);
+        QTest::keyClick(&panel.chart(), Qt::Key_Right);
         for (auto* button : panel.findChildren<QAbstractButton*>())
             if (button->text() == QStringLiteral("Use for the next run")) button->click();
         QCOMPARE(window->session().settings().options.detection.gradient.quantile, 0.23);
@@ -212,6 +213,14 @@ class SweepPanelTest : public QObject {
         QCOMPARE(data.columns.size(), 3);
         QVERIFY(data.best_cell.has_value());
         for (const double cell : data.cells) QVERIFY(std::isfinite(cell));
+        emit panel.chart().pointClicked(0);
+        QSignalSpy chosen(&panel.chart(), &SweepChart::pointClicked);
+        QTest::keyClick(&panel.chart(), Qt::Key_Right);
+        QTest::keyClick(&panel.chart(), Qt::Key_Up);
+        QTest::keyClick(&panel.chart(), Qt::Key_Up);  // there is no further row
+        QCOMPARE(chosen.size(), 2);
+        QCOMPARE(chosen.at(0).at(0).toInt(), 1);
+        QCOMPARE(chosen.at(1).at(0).toInt(), 4);
     }
 
     void aCancelledOrClosedSweepIsResumed() {

@@ -7,6 +7,7 @@
 #include "canvas/drawing/image_convert.h"
 #include "io/video/frame_cache.h"
 #include "rerun/replay.h"
+#include "session/frames/picture_budget.h"
 #include "session/frames/stored_frames.h"
 #include "session/project_session.h"
 #include "tune/compare/comparison_computation.h"
@@ -16,7 +17,6 @@ namespace eyrie::ui {
 
 namespace {
 
-constexpr std::size_t kSidePictureBudget = std::size_t{256} << 20U;
 constexpr int kSideReadAhead = 8;  ///< frames
 
 /// Where the frames of one side come from.
@@ -65,7 +65,7 @@ class ComparisonLoader::Worker {
             auto source = pair.media.open({}, stop);
             if (stop.stop_requested()) return;
             FrameCacheOptions options;
-            options.max_bytes = kSidePictureBudget;
+            options.max_bytes = pictureBudget(PictureUse::comparison);
             pictures_ = std::make_unique<FrameCache>(std::move(source), options);
         } catch (const std::exception&) {
             if (!stop.stop_requested()) throw;
