@@ -269,7 +269,7 @@ ObjectEdits LabelWorkspace::inspectorEdits() {
         .toggle_occluded = [this] { editor_->toggleOccluded(); },
         .toggle_outside = [this] { editor_->toggleOutside(); },
         .toggle_ignore = [this] { editor_->toggleIgnore(); },
-        .set_notes = [this](const QString& notes) { editor_->setNotes(notes); },
+        .set_notes = [this](int object, const QString& notes) { editor_->setNotes(object, notes); },
         .check = [this] { actions_->checked->trigger(); },
         .question = [this] { actions_->questionable->trigger(); },
         .join = [this](int other) { editor_->join(other, GapFilling::interpolate); },

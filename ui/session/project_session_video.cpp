@@ -37,7 +37,7 @@ void ProjectSession::openMedia(Media media, const fs::path& project) {
 
 void ProjectSession::beginOpening(Pending pending) {
     pending_ = std::move(pending);
-    project_opens_video_ = false;
+    if (std::exchange(project_opens_video_, false)) project_overtaken_ = true;
     run_when_open_ = false;
     emit openingProgress(QString::fromStdString(pending_->media.name), 0);
     loader_.openMedia(pending_->media, ++ticket_);
@@ -55,7 +55,7 @@ void ProjectSession::cancelOpening() {
 void ProjectSession::openProject(const fs::path& project) {
     cancelOpening();
     if (running()) stopRun();
-    project_opens_video_ = true;
+    awaitProject(true);
     reader_.open(project);
 }
 
@@ -99,6 +99,7 @@ void ProjectSession::mediaOpened(int ticket, const OpenedVideo& video) {
     takeLists({});
     useRun(std::nullopt);
     emit changed(SessionChange::runs);
+    awaitProject(false);
     reader_.openFor(pending.media.name, pending.media.identity, video.info, pending.project);
 }
 
@@ -139,7 +140,24 @@ void ProjectSession::adoptVideo(Media media, const OpenedVideo& video, bool keep
 
 // ---- the project ---------------------------------------------------------------------------------------------------
 
+/// A project is on its way from now on; what was asked for before is not wanted any more.
+void ProjectSession::awaitProject(bool opens_video) {
+    ++projects_due_;
+    project_opens_video_ = opens_video;
+    project_overtaken_ = false;
+}
+
+/// Whether the answer that has come is that to what was asked for last. If not, what is shown stays.
+bool ProjectSession::isAwaited() {
+    if (--projects_due_ > 0) return false;
+    if (!std::exchange(project_overtaken_, false)) return true;
+    reader_.forget();
+    return false;
+}
+
 void ProjectSession::projectOpened(const ProjectLists& lists) {
+    if (!isAwaited()) return;
+    reader_.takeUp();
     const bool opens_video = std::exchange(project_opens_video_, false);
     project_ = lists.project;
     project_open_ = true;
@@ -199,6 +217,8 @@ void ProjectSession::closeVideo() {
 
 void ProjectSession::closeProject() {
     cancelOpening();
+    project_opens_video_ = false;
+    project_overtaken_ = projects_due_ > 0;
     closeVideo();
     reader_.close();
     project_open_ = false;
@@ -308,7 +328,8 @@ void ProjectSession::adoptLive(const RunRecord& record) {
     if (record.scale.gsd_known) settings_.useGsd(record.scale.gsd_m_per_px, record.scale_basis.origin);
     told_length_ = readable_length_ = 0;
     project_ = run_project_ = live_->project;
-    reader_.open(project_);
+    awaitProject(false);
+    reader_.openInstead(project_);
     setFollowing(true);
 }
 

@@ -155,30 +155,34 @@ int sweep(const SweepArguments& arguments) {
     plan.border = evaluation.options.border;
     chosenPositions(plan, arguments.shard);  // shows a wrong shard before anything is opened
 
-    const InterruptGuard interrupt;
-    OpenedClips opened = runs.empty() ? openSequences(arguments.sources, base, arguments.out, interrupt.token())
-                                      : openStoredRuns(arguments.sources, std::move(runs), base);
-    plan.clips = opened.clips;
-    check(plan);
-    const std::string& out = arguments.out.empty() ? arguments.sources.project : arguments.out;
-    if (!keepEarlierState(out, interrupt.token())) return exit_stopped;
-    ProjectFile project = ProjectFile::openOrCreate(out);
-    const bool goes_on = arguments.resume || !arguments.shard.empty();
-    const int id = beginSweep(project, plan, arguments.name, goes_on ? SweepFound::resumed : SweepFound::refused);
-    const bool whole = runMissing(arguments, plan, opened.inputs, chosenPositions(plan, arguments.shard), project, id,
-                                  interrupt.token());
+    return untilStopped([&](const std::stop_token& stop) {
+        OpenedClips opened = runs.empty() ? openSequences(arguments.sources, base, arguments.out, stop)
+                                          : openStoredRuns(arguments.sources, std::move(runs), base);
+        plan.clips = opened.clips;
+        check(plan);
+        const std::string& out = arguments.out.empty() ? arguments.sources.project : arguments.out;
+        if (!keepEarlierState(out, stop)) return exit_stopped;
+        ProjectFile project = ProjectFile::openOrCreate(out);
+        const bool goes_on = arguments.resume || !arguments.shard.empty();
+        const int id = beginSweep(project, plan, arguments.name, goes_on ? SweepFound::resumed : SweepFound::refused);
+        const bool whole =
+            runMissing(arguments, plan, opened.inputs, chosenPositions(plan, arguments.shard), project, id, stop);
 
-    const SweepTable table = readSweep(project, id);
-    const SweepCriterion criterion = criterionOf(arguments, plan);
-    if (!arguments.csv.empty()) writeFileAtomically(arguments.csv, csvText(table));
-    if (!arguments.save_preset.empty()) savePreset(arguments.save_preset, table, criterion);
-    std::fputs((arguments.json ? jsonText(table, criterion) : tableText(table, criterion)).c_str(), stdout);
-    for (const std::string& remark : opened.remarks) std::fprintf(stderr, "note: %s\n", remark.c_str());
-    if (!whole) {
-        std::fprintf(stderr, "stopped; %s keeps the finished points, the same command with --resume does the rest\n",
-                     project.path().string().c_str());
-    }
-    return whole ? exit_ok : exit_stopped;
+        const SweepTable table = readSweep(project, id);
+        const SweepCriterion criterion = criterionOf(arguments, plan);
+        if (!arguments.csv.empty()) writeFileAtomically(arguments.csv, csvText(table));
+        // Stopped before its first point it has no best one.
+        if (!arguments.save_preset.empty() && (whole || bestPoint(table, criterion)))
+            savePreset(arguments.save_preset, table, criterion);
+        std::fputs((arguments.json ? jsonText(table, criterion) : tableText(table, criterion)).c_str(), stdout);
+        for (const std::string& remark : opened.remarks) std::fprintf(stderr, "note: %s\n", remark.c_str());
+        if (!whole) {
+            std::fprintf(stderr,
+                         "stopped; %s keeps the finished points, the same command with --resume does the rest\n",
+                         project.path().string().c_str());
+        }
+        return whole ? exit_ok : exit_stopped;
+    });
 }
 
 void addBest(CLI::App& command, std::string& criterion) {

@@ -351,6 +351,25 @@ class LabelToolTest : public QObject {
         QCOMPARE(canvas.changes, 0);
     }
 
+    void whatIsDraggedIsNotLetGoOnAnObjectThatWasChosenMeanwhile() {
+        Canvas canvas;
+        canvas.select(box(100, 75, 60, 40, 0));
+        QTest::mousePress(&canvas.view, Qt::LeftButton, {}, canvas.at(100, 75));
+        QTest::mouseMove(&canvas.view, canvas.at(110, 75));
+        QTest::mouseMove(&canvas.view, canvas.at(120, 75));
+        LabelScene scene = canvas.tool.scene();
+        LabelMark other = scene.marks.front();
+        other.id = 8;
+        other.box = box(40, 30, 20, 10, 0);
+        scene.marks.front().selected = false;
+        scene.marks.push_back(other);
+        scene.selected = 8;  // by N, the key for the next object
+        canvas.tool.setScene(scene);
+        QTest::mouseRelease(&canvas.view, Qt::LeftButton, {}, canvas.at(120, 75));
+        QCOMPARE(canvas.changes, 0);
+        QVERIFY(!canvas.tool.draft());
+    }
+
     void everythingCanBePaintedAtAnyZoom() {
         Canvas canvas;
         canvas.select(box(100, 75, 20, 9, 1));

@@ -9,11 +9,13 @@
 #include <QLabel>
 #include <QSignalSpy>
 #include <QTest>
+#include <QThread>
 #include <QTimer>
 #include <cmath>
 #include <csignal>
 #include <fstream>
 
+#include "store/sweeps/sweep_store.h"
 #include "tune/evaluate/evaluation_panel.h"
 #include "tune/evaluate/truth_choice.h"
 #include "tune/sweep/sweep_form.h"
@@ -102,6 +104,27 @@ class SweepPanelTest : public QObject {
  private slots:
     void init() { home_ = std::make_unique<test::OwnHome>(); }
     void cleanup() { home_.reset(); }
+
+    void aSweepOfAProjectThatWasClosedIsNotShown() {
+        const auto window = windowWithRun(12);
+        QVERIFY(window);
+        const std::filesystem::path project = window->session().project();
+        SweepSession& sweeps = window->review().sweeps().sweeps();
+        sweeps.start(request({"gradient.quantile=0.1,0.2"}));
+        // The window does nothing meanwhile, so that it hears of the sweep only when the project is gone.
+        QElapsedTimer since;
+        since.start();
+        const auto begun = [&] {
+            ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
+            return !SweepStore(file).sweeps().empty();
+        };
+        while (!begun() && since.elapsed() < 4 * kPatience_ms) QThread::msleep(5);
+        QVERIFY(begun());
+        window->session().closeProject();
+        QVERIFY(waitFor([&] { return !sweeps.running(); }));
+        QVERIFY(!sweeps.table());
+        QVERIFY(sweeps.sweeps().empty());
+    }
 
     void sweepsOverTheRunAndShowsTheCurveWithoutStoppingTheWindow() {
         const auto window = windowWithRun(40);

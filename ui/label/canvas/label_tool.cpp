@@ -35,10 +35,10 @@ bool hasArea(const std::vector<cv::Point2d>& corners) {
 LabelTool::LabelTool(QObject* parent) : QObject(parent), nudged_(kNudged_ms, [this] { emit repaintNeeded(); }) {}
 
 void LabelTool::setScene(LabelScene scene) {
-    const bool other_frame = scene.frame != scene_.frame;
+    const bool another = scene.frame != scene_.frame || scene.selected != scene_.selected;
     scene_ = std::move(scene);
-    // What was dragged in another frame must not be let go in this one.
-    if (other_frame && handle_) {
+    // What was dragged in another frame, or of another object, must not be let go here.
+    if (another && handle_) {
         handle_.reset();
         draft_.reset();
     }
