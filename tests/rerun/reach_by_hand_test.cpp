@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "rerun/method_variants.h"
 #include "rerun/motion_window.h"
 #include "rerun/replay.h"
