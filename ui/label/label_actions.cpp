@@ -92,9 +92,10 @@ LabelActions::LabelActions(KeyBindings& keys, QWidget& window, QWidget& canvas)
     proposals->setIconText(tr("Proposals"));
     proposals->setIcon(QIcon::fromTheme(QStringLiteral("tools-wizard")));
     next_proposal = add(tr("Next proposal"), {QKeySequence(tr("Shift+P"))});
-    accept =
-        add(tr("Accept the selected proposals"), {QKeySequence(Qt::Key_Return), QKeySequence(Qt::Key_Enter)}, true);
-    reject = add(tr("Reject the selected proposals"), {QKeySequence(Qt::Key_Backspace)}, true);
+    accept = add(tr("Accept the selected proposals, or the one under the cursor"),
+                 {QKeySequence(Qt::Key_Return), QKeySequence(Qt::Key_Enter)}, true);
+    reject =
+        add(tr("Reject the selected proposals, or the one under the cursor"), {QKeySequence(Qt::Key_Backspace)}, true);
     accept_all = add(tr("Accept all proposals of this frame"), {QKeySequence(tr("Shift+Return"))}, true);
     accept_range =
         add(tr("Accept all proposals in the toolbar's frame range"), {QKeySequence(tr("Ctrl+Return"))}, true);

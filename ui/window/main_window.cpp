@@ -296,10 +296,8 @@ void MainWindow::buildRunMessages() {
 void MainWindow::buildEvaluation() {
     evaluation_ = new EvaluationDocks(session_, *measured_, *canvas_, *actions_, overlays_, *docks_, *messages_, *this);
     connect(evaluation_, &EvaluationDocks::whyRequested, tuning_, &Tuning::askWhyAbout);
-    // A preview takes the verdicts away, which are those of the stored run; they come back with it.
-    connect(&tuning_->preview(), &LivePreview::changed, evaluation_, [this] {
-        if (!tuning_->preview().active()) evaluation_->showMarks();
-    });
+    connect(&tuning_->preview(), &LivePreview::changed, evaluation_,
+            [this] { evaluation_->setPreviewed(tuning_->preview().active()); });
 }
 
 void MainWindow::wireInspection() {

@@ -252,10 +252,12 @@ void addCompareCommand(CLI::App& app, int& exit_code) {
     command->add_option("--sequence", arguments->sequence, "A video file, a folder of images, or scene:NAME")
         ->required();
     arguments->ground_truth.addTo(*command)->required();
-    command->add_option("--methods", arguments->methods,
-                        "Methods, or groups of them: detectors and peer (default; the simplest competitor, three-frame "
-                        "difference with SORT), gradients, rescaling, motion; the first one is what the others are "
-                        "compared with");
+    command
+        ->add_option("--methods", arguments->methods,
+                     "Methods, or groups of them: detectors and peer (default; the simplest competitor, three-frame "
+                     "difference with SORT), gradients, rescaling, motion; the first one is what the others are "
+                     "compared with")
+        ->delimiter(',');
     command->add_option("--stacking", arguments->stacking, "off, on, or both: off,on")
         ->delimiter(',')
         ->check(CLI::IsMember({"on", "off"}))

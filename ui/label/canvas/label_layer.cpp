@@ -152,4 +152,13 @@ const LabelMark* markAt(const LabelScene& scene, QPointF image_point, double mar
     return hit;
 }
 
+const LabelMark* proposalAt(const LabelScene& scene, QPointF image_point, double margin) {
+    const LabelMark* hit = nullptr;
+    for (const LabelMark& mark : scene.marks)
+        if (mark.kind == LabelKind::proposal && mark.box.contains({image_point.x(), image_point.y()}, margin) &&
+            (hit == nullptr || mark.box.area() < hit->box.area()))
+            hit = &mark;
+    return hit;
+}
+
 }  // namespace eyrie::ui

@@ -36,7 +36,7 @@ void LabelTracking::start(int direction) {
     if (const Keyframe* next = direction > 0 ? nextKeyframe(*object, from) : previousKeyframe(*object, from))
         last = next->frame - direction;
     if (last == from || (last - from > 0) != (direction > 0)) {
-        answers_.show_end(from, tr("there is nothing between this keyframe and the next one"));
+        answers_.show_end(from, tr("Nothing to track: there is no frame between this keyframe and the next one."));
         return;
     }
     working_ = true;
@@ -79,7 +79,7 @@ void LabelTracking::start(int direction) {
 void LabelTracking::take(ObjectId id, FrameIndex start, const OrientedBox& box, const FollowResult& result) {
     const LabelledObject* object = labels_.object(id);
     if (object == nullptr) {
-        answers_.show_end(start, tr("the object was deleted meanwhile"));
+        answers_.show_end(start, tr("Tracking ended: the object was deleted meanwhile."));
         return;
     }
     FrameIndex end = start;
@@ -103,7 +103,8 @@ void LabelTracking::take(ObjectId id, FrameIndex start, const OrientedBox& box, 
         const QString name = tr("Track %1").arg(QString::fromStdString(nameOf(changed)));
         labels_.apply(editOf(name.toStdString(), labels_.annotations(), std::vector{std::move(changed)}));
     }
-    answers_.show_end(end, QString::fromStdString(result.reason));
+    const QString reason = QString::fromStdString(result.reason);
+    answers_.show_end(end, reason.isEmpty() ? QString() : tr("Tracking %1.").arg(reason));
 }
 
 }  // namespace eyrie::ui

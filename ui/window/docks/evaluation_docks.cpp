@@ -120,14 +120,20 @@ void EvaluationDocks::updateWanted() {
 /// bring them back; leaving the docks does, too.
 void EvaluationDocks::showErrorsAlone() {
     if (labelling_ != nullptr && labelling_->active()) return;
-    const bool alone = (evaluation_looked_at_ || errors_looked_at_) && evaluation_->evaluation() != nullptr;
+    const bool looked_at = evaluation_looked_at_ || errors_looked_at_;
+    const bool alone = looked_at && evaluation_->evaluation() != nullptr && !previewed_;
     if (!alone) {
         // In full screen no dock is seen; they come back, and what was shown with them is to be there.
-        if (!actions_.full_screen->isChecked() && !window_.isFullScreen()) giveOverlaysBack();
+        if (previewed_ || (!actions_.full_screen->isChecked() && !window_.isFullScreen())) giveOverlaysBack();
     } else if (!other_overlays_) {
         other_overlays_ = overlays_.profile();
         overlays_.setProfile({{VerdictLayer::kKind}, other_overlays_->detail});
     }
+}
+
+void EvaluationDocks::setPreviewed(bool previewed) {
+    if (std::exchange(previewed_, previewed) != previewed) showErrorsAlone();
+    if (!previewed) showMarks();
 }
 
 void EvaluationDocks::giveOverlaysBack() {
