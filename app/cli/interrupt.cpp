@@ -3,8 +3,12 @@
 #include <pthread.h>
 
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <ctime>
+
+#include "cli/command.h"
+#include "core/error.h"
 
 namespace eyrie::cli {
 namespace {
@@ -46,6 +50,17 @@ InterruptGuard::~InterruptGuard() {
     watcher_ = {};
     const sigset_t set = stopSignals();
     pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
+}
+
+int untilStopped(const std::function<int(const std::stop_token& stop)>& work) {
+    const InterruptGuard interrupt;
+    try {
+        return work(interrupt.token());
+    } catch (const Error& error) {
+        if (!interrupt.token().stop_requested()) throw;
+        std::fprintf(stderr, "eyrie-cli: %s\n", error.what());
+        return exit_stopped;
+    }
 }
 
 }  // namespace eyrie::cli

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <stop_token>
 #include <thread>
 
@@ -21,5 +22,9 @@ class InterruptGuard {
     std::stop_source stop_;
     std::jthread watcher_;
 };
+
+/// Does the work of a command that a person may stop, and answers its exit code. What cannot be done because of that,
+/// such as opening a video that is still being indexed, is told, and the command ends as one that was stopped.
+int untilStopped(const std::function<int(const std::stop_token& stop)>& work);
 
 }  // namespace eyrie::cli

@@ -79,8 +79,12 @@ int commandOf(int argc, char** argv) {
         const auto better = asked ? std::nullopt : eyrie::cli::explainUsage(app, {argv + 1, argv + argc});
         if (better) {
             std::fprintf(stderr, "eyrie-cli: %s\n", better->c_str());
-        } else {
+        } else if (asked) {
             app.exit(error);
+        } else {
+            const auto chosen = app.get_subcommands();
+            std::fprintf(stderr, "eyrie-cli: %s; eyrie-cli %s--help tells more\n", error.what(),
+                         chosen.empty() ? "" : (chosen.front()->get_name() + ' ').c_str());
         }
         return asked ? eyrie::cli::exit_ok : eyrie::cli::exit_usage;
     } catch (const eyrie::Error& error) {

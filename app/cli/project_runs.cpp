@@ -32,7 +32,9 @@ RunRecord chosenRun(const RunStore& store, const std::string& project, std::opti
         if (run.id == *id) return run;
         known += (known.empty() ? "" : ", ") + std::to_string(run.id);
     }
-    throw Error(ErrorKind::parameter, option + " " + std::to_string(*id) + ": " + project + " holds the runs " + known);
+    throw Error(ErrorKind::parameter,
+                option + " " + std::to_string(*id) + ": " + project +
+                    (runs.size() == 1 ? " holds run " + known + " alone" : " holds the runs " + known));
 }
 
 }  // namespace eyrie::cli

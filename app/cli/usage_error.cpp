@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/text.h"
+#include "io/tables/number_text.h"
 
 namespace eyrie::cli {
 namespace {
@@ -25,6 +26,23 @@ std::optional<std::string> unknownOption(const CLI::App& command, const std::str
            (nearest ? "; did you mean " + *nearest + "?" : "; eyrie-cli " + command.get_name() + " --help lists them");
 }
 
+/// Whether an option takes one number, no list of them.
+bool takesNumber(const CLI::Option& option) {
+    const std::string type = option.get_type_name();
+    return option.get_items_expected_max() == 1 &&
+           (type.starts_with("FLOAT") || type.starts_with("INT") || type.starts_with("UINT"));
+}
+
+/// An option without the value that it needs, or with a word where it takes a number.
+std::optional<std::string> badValue(const CLI::App& command, const std::string& name, const std::string& value,
+                                    bool missing) {
+    const CLI::Option* option = command.get_option_no_throw(name);
+    if (option == nullptr || option->get_items_expected_min() < 1) return std::nullopt;
+    if (missing) return name + " needs a value; eyrie-cli " + command.get_name() + " --help tells which";
+    if (takesNumber(*option) && !parseReal(value)) return name + " " + value + ": expected a number";
+    return std::nullopt;
+}
+
 /// A number with a decimal comma for an option that takes a number.
 std::optional<std::string> decimalComma(const CLI::App& command, const std::string& name, const std::string& value) {
     const auto point = withDecimalPoint(value);
@@ -38,11 +56,13 @@ std::optional<std::string> decimalComma(const CLI::App& command, const std::stri
 std::optional<std::string> explainUsage(CLI::App& app, const std::vector<std::string>& words) {
     const auto named =
         std::find_if(words.begin(), words.end(), [](const std::string& word) { return !isOption(word); });
-    if (named == words.end()) return std::nullopt;
+    if (named == words.end())
+        return words.empty() ? std::optional<std::string>("a command is missing; eyrie-cli --help lists them")
+                             : std::nullopt;
     std::vector<std::string> commands;
     const CLI::App* command = nullptr;
     for (const CLI::App* known : app.get_subcommands([](const CLI::App*) { return true; })) {
-        commands.push_back(known->get_name());
+        if (!known->get_group().empty()) commands.push_back(known->get_name());  // those without are not for people
         if (known->get_name() == *named) command = known;
     }
     if (command == nullptr) {
@@ -62,6 +82,8 @@ std::optional<std::string> explainUsage(CLI::App& app, const std::vector<std::st
                                   : word + 1 != words.end()   ? *(word + 1)
                                                               : std::string();
         if (auto text = decimalComma(*command, name, value)) return text;
+        const bool missing = equals == std::string::npos && (word + 1 == words.end() || isOption(*(word + 1)));
+        if (auto text = badValue(*command, name, value, missing)) return text;
     }
     return std::nullopt;
 }

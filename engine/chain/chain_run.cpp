@@ -16,6 +16,7 @@
 #include "core/error.h"
 #include "core/values/last_frame.h"
 #include "core/values/stopwatch.h"
+#include "io/clock_jumps.h"
 #include "io/live/live_stream.h"
 
 namespace eyrie {
@@ -227,6 +228,11 @@ StageTimes medianTimes(const std::vector<StageTimes>& frames) {
     return median;
 }
 
+std::string grownText(FrameIndex last) {
+    return "the video has grown since it was opened; the run ends with frame " + std::to_string(last) +
+           ", which was the last one then; open it again and make a run over the rest";
+}
+
 }  // namespace
 
 RunSummary ChainRun::run(FrameSource& source, FrameRange range, ChainObserver& observer, std::stop_token stop,
@@ -257,6 +263,7 @@ RunSummary ChainRun::run(FrameSource& source, FrameRange range, ChainObserver& o
         ItemQueue queue;
         StateClock clock(observer.stateKeeping());
         ProgressMeter meter(summary.frames_total, summary.frames_done);
+        ClockJumps jumps(source.info().frame_rate_hz);
         Producer first_half(source, {progress->last_done + 1, range.last}, with_colour, *progress, clock, queue);
         // Frame t+1 is registered on this thread while frame t is segmented and tracked below.
         std::jthread producer([&] { first_half.work(stop); });
@@ -282,6 +289,7 @@ RunSummary ChainRun::run(FrameSource& source, FrameRange range, ChainObserver& o
             }
             observer.onFrame(result, item->frame);
             progress->last_done = item->frame.index;
+            jumps.see(item->frame.index, item->frame.time_us);
             times.push_back(result->stage_ms);
             const RunProgress news = meter.frameDone();
             summary.frames_done = news.frames_done;
@@ -289,9 +297,13 @@ RunSummary ChainRun::run(FrameSource& source, FrameRange range, ChainObserver& o
             observer.onProgress(news);
         }
         summary.outcome = summary.frames_done == summary.frames_total ? RunOutcome::finished : RunOutcome::stopped;
-        if (summary.outcome == RunOutcome::finished && range.last == count - 1 && source.hasGrown())
-            summary.message = "the video has grown since it was opened; the run ends with frame " +
-                              std::to_string(range.last) + ", which was the last one then";
+        if (summary.outcome == RunOutcome::finished) {
+            const bool live = count > kLastFrame;  // its gaps are told otherwise
+            if (!live) summary.message = jumps.text();
+            if (range.last == count - 1 && source.hasGrown()) {
+                summary.message += (summary.message.empty() ? "" : ". Also, ") + grownText(range.last);
+            }
+        }
         if (summary.outcome == RunOutcome::stopped && summary.frames_done > 0 && observer.stateKeeping()) {
             // The first half is some frames ahead: these wait until the run goes on.
             queue.letGo();

@@ -6,18 +6,12 @@
 #include <string>
 
 #include "chain/recording/run_recorder.h"
+#include "chain/scale_outcomes.h"
 #include "core/values/scale_basis.h"
 #include "io/video/frame_source.h"
 #include "metadata/metadata_scale.h"
 
 namespace eyrie {
-
-/// What a look at the traffic says about the scale of a video.
-struct ScaleEstimate {
-    double gsd_m_per_px = 0;  ///< metres per pixel at which the vehicles have the length of usual cars
-    double uncertainty = 1;   ///< factor ≥ 1: in nine of ten videos the truth lies between GSD / this and GSD × this
-    int vehicles = 0;         ///< tracks it rests on
-};
 
 /// Frames of one look; where no more are there, what these show decides.
 inline constexpr int kFramesOfLook = 40;

@@ -7,7 +7,7 @@ namespace eyrie {
 
 std::string numberText(double value) {
     char text[32];
-    if (std::abs(value) >= 1000)
+    if (std::abs(value) >= 999.5)  // which rounds to 1000, for which the other would write 1e+03
         std::snprintf(text, sizeof text, "%.0f", value);
     else
         std::snprintf(text, sizeof text, "%.3g", value);

@@ -6,6 +6,9 @@
 
 namespace eyrie {
 
+/// Of distances from the mean that are normal with a deviation of 1: their median.
+inline constexpr double kMedianOfAbsoluteNormal = 0.6745;
+
 /// The middle value, of an even number the upper one; there must be one.
 inline double medianOf(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

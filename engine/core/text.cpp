@@ -104,7 +104,7 @@ std::optional<std::string> nearestWord(std::string_view word, const std::vector<
 std::optional<std::string> withDecimalPoint(std::string_view text) {
     const std::size_t sign = !text.empty() && (text.front() == '-' || text.front() == '+') ? 1 : 0;
     const std::size_t comma = text.find(',');
-    if (comma == std::string_view::npos || comma + 1 == text.size() || comma < sign) return std::nullopt;
+    if (comma == std::string_view::npos || comma + 1 == text.size()) return std::nullopt;
     for (std::size_t i = sign; i < text.size(); ++i) {
         if (i != comma && (text[i] < '0' || text[i] > '9')) return std::nullopt;
     }

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/labels/box_record.h"
@@ -47,6 +48,11 @@ struct NamedMeasure {
     int decimals = 4;             ///< 0 for counts
     bool higher_is_better = true;
 };
+
+/// Whether the measures of a group need tracks: detections, which have no ids, have none of them.
+inline bool isOfTracks(std::string_view group) {
+    return group == "tracking" || group == "identity";
+}
 
 /// All scalar measures in the order of the thesis; HOTA and its parts as means over the thresholds.
 std::vector<NamedMeasure> listMeasures(const Measures& measures);

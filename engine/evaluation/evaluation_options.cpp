@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "core/error.h"
 
@@ -49,8 +50,10 @@ std::string countedText(const EvaluationOptions& options) {
 
 void check(const EvaluationOptions& options) {
     if (!(options.overlap > 0 && options.overlap <= 1)) {
+        char given[32];
+        std::snprintf(given, sizeof given, "%g", options.overlap);
         throw Error(ErrorKind::parameter,
-                    "overlap = " + std::to_string(options.overlap) + ", expected more than 0 and at most 1");
+                    "overlap = " + std::string(given) + ", expected more than 0 and at most 1, e.g. 0.3");
     }
     if (options.one_class == TrackClass::unknown) {
         throw Error(ErrorKind::parameter, "objects of unknown class cannot be measured alone; choose a class or all");

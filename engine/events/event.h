@@ -17,6 +17,7 @@ enum class FigureUnit { none, km_per_hour, px_per_frame, seconds, degrees, metre
 /// "km/h"; empty for none.
 const char* nameOf(FigureUnit unit);
 
+/// Something that happened to one vehicle or several.
 struct Event {
     EventKind kind = EventKind::appears;
     std::vector<TrackId> tracks;  ///< ascending; several for convoys and meetings

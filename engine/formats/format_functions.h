@@ -22,6 +22,7 @@ struct FileHead {
     std::string name() const { return path.filename().string(); }
 };
 
+/// A format of labels: what is said of it, and the functions that recognise, read and write it.
 struct LabelFormat {
     LabelFormatInfo info;
     bool needs_id = false;
@@ -78,6 +79,9 @@ class LeftOutRows {
     int count_ = 0;
     std::vector<std::string> reasons_;  ///< of the first ones
 };
+
+/// Frames per second in what is written of labels that know none.
+inline constexpr int kAssumedRate_hz = 25;
 
 /// A count with its noun: "1 box", "3 boxes".
 std::string counted(int count, const char* one, const char* many);

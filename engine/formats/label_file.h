@@ -25,6 +25,7 @@ using LabelBoxes = std::map<FrameIndex, std::vector<LabelBox>>;
 
 struct TrackWorld;
 
+/// Labels as a file has them, in our pixel coordinates.
 struct LabelFile {
     std::string format;  ///< name of the format it was read from
     LabelBoxes boxes;    ///< every frame an object is seen in; boxes without id belong to no object

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "formats/format_functions.h"
 #include "io/atomic_file.h"
+#include "io/file_kind.h"
 #include "io/folder.h"
 
 namespace eyrie {
@@ -177,11 +178,16 @@ std::string sniffLabelFormat(const std::filesystem::path& path) {
     for (const LabelFormat& format : formatTable()) {
         if (format.fits && format.fits(head)) return format.info.name;
     }
+    if (!head.folder && head.lines.empty()) throw Error(ErrorKind::input, path.string() + ": is empty");
+    const FileKind kind = head.folder ? FileKind::other : kindOfFile(path);
+    if (kind == FileKind::video || kind == FileKind::image || kind == FileKind::project || kind == FileKind::model)
+        throw Error(ErrorKind::input,
+                    path.string() + ": is " + nameOf(kind) + " and no file of labels; choose another");
     throw Error(ErrorKind::input, path.string() +
-                                      (head.folder          ? ": the folder matches no known label format"
-                                       : head.lines.empty() ? ": is empty"
-                                                            : ":1: the beginning matches no known format") +
-                                      "; say which it is (--format), or describe its columns (--columns)");
+                                      (head.folder ? ": the folder matches no known label format"
+                                                   : ":1: the beginning matches no known format") +
+                                      "; eyrie-cli import and the window's import can be told which it is (--format), "
+                                      "or its columns (--columns)");
 }
 
 LabelFile readLabels(const std::filesystem::path& path, const std::string& format, const ImportOptions& options) {

@@ -15,6 +15,7 @@
 /// functions. Reading ends with labels or an Error(input) that names file and place, whatever the bytes are.
 namespace eyrie {
 
+/// How a file of labels is read.
 struct ImportOptions {
     std::map<std::string, std::string> class_map;  ///< from a class of the file to one of ours
     int frame_shift = 0;                           ///< added to every frame
@@ -30,6 +31,7 @@ struct ImportOptions {
     std::string sequence;  ///< which video of a KWCOCO file with several
 };
 
+/// How labels are written.
 struct ExportOptions {
     std::optional<cv::Size> image_size;  ///< instead of LabelFile's
     std::optional<int> frame_count;
@@ -54,6 +56,7 @@ struct ExportLoss {
     std::string remark;  ///< a whole sentence, number included
 };
 
+/// What was written, and what of the labels the format could not hold.
 struct ExportReport {
     std::string format;
     int boxes = 0;

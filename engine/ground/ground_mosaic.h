@@ -10,6 +10,7 @@
 
 namespace eyrie {
 
+/// How large and how fine a mosaic becomes.
 struct MosaicOptions {
     std::int64_t max_pixels = 8'000'000;  ///< of all sheets together
     int wanted_frames = 400;              ///< that are painted, of all sheets together; two of each are at least

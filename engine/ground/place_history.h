@@ -34,8 +34,11 @@ struct SheetPath {
     std::vector<FramePoint> points;  ///< on the sheet, ascending frames
 };
 
+/// Between points of a way that is shown, units of the sheet.
+inline constexpr double kLeastWay = 2;
+
 /// The ways of all tracks over each sheet, ascending ids; of points nearer to each other than `least`, one.
 std::vector<std::vector<SheetPath>> pathsOn(const GroundSheets& sheets, const std::vector<EventTrack>& tracks,
-                                            double least = 1);
+                                            double least = kLeastWay);
 
 }  // namespace eyrie

@@ -189,7 +189,8 @@ std::vector<fs::path> filesToReplace(const std::vector<OutputFile>& outputs, con
                 throw Error(ErrorKind::project,
                             displayText(output.path) + ": is a pipe or a device, not a project; name a file (*.eyrie)");
             if (::access(output.path.c_str(), W_OK) != 0)
-                refuse(output.path, std::string("cannot be written (") + std::strerror(errno) + ")");
+                refuse(output.path,
+                       std::string("cannot be written (") + std::strerror(errno) + "); choose another place");
             continue;
         }
         if (isOwnStream(output.path)) continue;

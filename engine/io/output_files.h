@@ -10,6 +10,7 @@
 /// kind; a file of the same kind only when somebody agrees. Commands and dialogs ask before they begin to work.
 namespace eyrie {
 
+/// A file that is going to be written.
 struct OutputFile {
     std::filesystem::path path;      ///< empty: not wanted
     FileKind kind = FileKind::text;  ///< what will be written

@@ -138,11 +138,24 @@ void MetadataCollector::carry(const DataPacket& packet) {
 void MetadataCollector::feed(const DataPacket& packet) {
     carry(packet);
     splitter_.feed(packet.bytes, [this](const klv::Set& set) { return take(set); });
+    noteDamage();
 }
 
 void MetadataCollector::feedPiece(const DataPacket& piece) {
     carry(piece);
     splitter_.feedPiece(piece.bytes, [this](const klv::Set& set) { return take(set); });
+    noteDamage();
+}
+
+std::optional<MetadataPlace> MetadataCollector::here() const {
+    if (stream_.track.number < 0) return std::nullopt;
+    return MetadataPlace{carriage_.pictures_before};
+}
+
+void MetadataCollector::noteDamage() {
+    const klv::FaultCounts& faults = splitter_.faults();
+    const bool any = std::any_of(faults.begin(), faults.end(), [](int count) { return count > 0; });
+    if (any && !stream_.first_damage) stream_.first_damage = here();
 }
 
 std::optional<klv::Fault> MetadataCollector::take(const klv::Set& set) {
@@ -159,8 +172,11 @@ std::optional<klv::Fault> MetadataCollector::take(const klv::Set& set) {
     if (packet.kind == SetKind::local && !packet.has_checksum) ++stream_.without_checksum;
     if (packet.stamp_us == kNoStamp) ++stream_.without_stamp;
     if (packet.utc_us) {
-        if (last_utc_us_ && *packet.utc_us < *last_utc_us_) ++stream_.steps_back;
-        if (last_utc_us_ && *packet.utc_us > *last_utc_us_ + kLeap) ++stream_.leaps;
+        const bool back = last_utc_us_ && *packet.utc_us < *last_utc_us_;
+        const bool leap = last_utc_us_ && *packet.utc_us > *last_utc_us_ + kLeap;
+        stream_.steps_back += back ? 1 : 0;
+        stream_.leaps += leap ? 1 : 0;
+        if ((back || leap) && !stream_.first_jump) stream_.first_jump = here();
         last_utc_us_ = packet.utc_us;
     } else {
         ++stream_.without_time;
@@ -186,6 +202,7 @@ std::optional<klv::Fault> MetadataCollector::take(const klv::Set& set) {
 
 void MetadataCollector::endOfPart() {
     splitter_.finish([this](const klv::Set& set) { return take(set); });
+    noteDamage();
     last_utc_us_.reset();
     ++carriage_.part;
 }

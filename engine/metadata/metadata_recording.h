@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -22,19 +23,26 @@ struct TagSummary {
     bool text_changes = false;
 };
 
+/// Where in a video something of its metadata is.
+struct MetadataPlace {
+    int pictures_before = 0;  ///< as of DataPacket: about the number of the frame that is shown then
+};
+
 /// One stream of metadata.
 struct MetadataStream {
     DataStream track;                     ///< number -1 for a file that is nothing but metadata
     std::vector<MetadataPacket> packets;  ///< in file order
     std::map<int, TagSummary> tags;       ///< 0 stands for items that no standard knows
     klv::FaultCounts faults{};
+    std::optional<MetadataPlace> first_damage;  ///< where it was noticed; nothing in files without pictures, too
     int local_sets = 0, universal_sets = 0;
     std::map<std::string, int> other_sets;  ///< key in hexadecimal digits, or "others": sets not read
     int without_checksum = 0;               ///< local sets that state none; they are believed
     int without_time = 0;
-    int without_stamp = 0;  ///< of the container: asynchronous carriage
-    int steps_back = 0;     ///< clock of the sets goes back
-    int leaps = 0;          ///< clock of the sets goes on by more than 10 s at once
+    int without_stamp = 0;                    ///< of the container: asynchronous carriage
+    int steps_back = 0;                       ///< clock of the sets goes back
+    int leaps = 0;                            ///< clock of the sets goes on by more than 10 s at once
+    std::optional<MetadataPlace> first_jump;  ///< of the clock, back or ahead; as above
 
     int damaged() const;
     /// Sets of moving targets (VMTI) among the others.
@@ -69,6 +77,10 @@ class MetadataCollector {
  private:
     void carry(const DataPacket& packet);
     std::optional<klv::Fault> take(const klv::Set& set);
+    /// Takes down where the first damage is.
+    void noteDamage();
+    /// Where the packet came that is read.
+    std::optional<MetadataPlace> here() const;
 
     MetadataStream stream_;
     klv::Splitter splitter_;

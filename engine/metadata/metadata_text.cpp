@@ -67,7 +67,11 @@ std::string damageText(const MetadataStream& stream) {
         text += (text.empty() ? "" : ", ") + std::string(klv::nameOf(static_cast<klv::Fault>(i))) + " " +
                 std::to_string(stream.faults[i]) + "×";
     }
-    return text;
+    return text.empty() ? text : text + firstPlaceText(stream.first_damage);
+}
+
+std::string firstPlaceText(const std::optional<MetadataPlace>& place) {
+    return place ? "; the first near frame " + std::to_string(place->pictures_before) : "";
 }
 
 }  // namespace eyrie

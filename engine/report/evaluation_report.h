@@ -11,6 +11,7 @@
 
 namespace eyrie {
 
+/// What a report of an evaluation shows.
 struct ReportOptions {
     std::string title;       ///< empty: made from the video's name
     std::string made_utc;    ///< when it is made, ISO 8601; empty: not told

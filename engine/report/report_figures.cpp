@@ -51,14 +51,20 @@ void addFigures(ReportPage& page, const RunEvaluation& e, ReportFile& report) {
     std::vector<ChartBar> shares;
     for (const TruthTrackTally& tally : e.shown.tracks.truth) {
         const double share = tally.frames > 0 ? static_cast<double>(tally.matched) / tally.frames : 0;
-        shares.push_back({"", share >= 0.8 ? kFound : share < 0.2 ? kFalse : kMissed, share});
+        const TrackedLife life = trackedLife(tally, e.shown.convention);
+        shares.push_back({"",
+                          life == TrackedLife::mostly        ? kFound
+                          : life == TrackedLife::mostly_lost ? kFalse
+                                                             : kMissed,
+                          share});
     }
     if (shares.empty()) return;
     std::stable_sort(shares.begin(), shares.end(),
                      [](const ChartBar& a, const ChartBar& b) { return a.value > b.value; });
-    report.add("figure-tracked", ReportPicture::Kind::svg,
-               sharesSvg(shares, {1, 0.8, 0.2}, std::to_string(shares.size()) + " objects, best first"),
-               kFigureWidth_mm);
+    report.add(
+        "figure-tracked", ReportPicture::Kind::svg,
+        sharesSvg(shares, {1, kMostlyTracked, kMostlyLost}, std::to_string(shares.size()) + " objects, best first"),
+        kFigureWidth_mm);
     page.figure(
         "figure-tracked",
         "Share of its frames in which each object was found: mostly tracked from 80 %, mostly lost below 20 %.");

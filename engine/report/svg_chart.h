@@ -6,6 +6,7 @@
 /// Charts as SVG text, for reports. Sizes in px of the picture.
 namespace eyrie {
 
+/// Of a chart, in px of CSS.
 struct ChartSize {
     int width = 720;
     int height = 240;
@@ -18,6 +19,7 @@ struct ChartSeries {
     std::vector<double> values;  ///< NaN: a gap
 };
 
+/// Curves over the same places.
 struct CurveChart {
     std::string place_label;
     std::string value_label;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
 
 #include "core/error.h"
 
@@ -101,8 +102,9 @@ MethodVariant methodVariant(const std::string& word, const ChainOptions& base, c
         if (word == kPeer) variant.peer = peer;
         return variant;
     }
-    std::string known = "the groups detectors, gradients, rescaling, motion, peer";
-    for (const std::string& name : methodWords()) known += ", " + name;
+    std::string known = "the groups detectors, gradients, rescaling, motion, peer, and the methods ";
+    bool first = true;
+    for (const std::string& name : methodWords()) known += (std::exchange(first, false) ? "" : ", ") + name;
     throw Error(ErrorKind::parameter, "there is no method \"" + word + "\"; known are " + known);
 }
 

@@ -58,6 +58,7 @@ struct GroundPatch {
 
 enum class RoofKind { flat, gable };
 
+/// A house on the ground, metres.
 struct Building {
     cv::Point2d centre;
     cv::Point2d direction{1, 0};  ///< along its length and ridge
@@ -82,6 +83,7 @@ struct Block {
     bool shines = false;  ///< a sign with light of its own
 };
 
+/// A tree on the ground, metres.
 struct Tree {
     cv::Point2d position;
     double height = 9;
@@ -91,6 +93,7 @@ struct Tree {
     std::uint32_t seed = 1;
 };
 
+/// A street lamp on the ground, metres.
 struct LampPost {
     cv::Point2d position;
     cv::Point2d arm{1, 0};  ///< direction of the arm over the road, unit vector
@@ -98,6 +101,7 @@ struct LampPost {
     double arm_length = 2;
 };
 
+/// Where the light comes from, and how hard it is.
 struct Sun {
     cv::Point2d shadow{0.5, 0.4};  ///< m of shadow on the ground per metre of height
     double ambient = 0.42;         ///< share of the light that reaches shadows; the rest is direct
@@ -130,6 +134,7 @@ struct Sensor {
     int samples = 16;          ///< per pixel, spread over its area and the exposure: 4, 8, 16 or 32
 };
 
+/// All that a rendered scene is made from.
 struct SceneDescription {
     std::string name = "scene";
     std::string text;  ///< one sentence for people

@@ -36,7 +36,8 @@ StoredRun readStoredRun(ProjectFile& project, std::optional<int> run_id) {
     if (runs.empty()) throw Error(ErrorKind::project, name + ": holds no run; make one first (eyrie-cli run)");
     if (!run) {
         throw Error(ErrorKind::parameter,
-                    name + ": there is no run " + std::to_string(*run_id) + "; it holds the runs " + known);
+                    name + ": there is no run " + std::to_string(*run_id) +
+                        (runs.size() == 1 ? "; it holds run " + known + " alone" : "; it holds the runs " + known));
     }
     if (run->frames_done < 1)
         throw Error(ErrorKind::parameter, name + ": run " + std::to_string(run->id) + " has no frame");

@@ -24,6 +24,7 @@ struct ClipResult {
     std::shared_ptr<const BoxesByFrame> tracks;      ///< finished
 };
 
+/// What a cache may keep and use.
 struct StageCacheOptions {
     std::size_t frame_bytes = std::size_t{1} << 31U;  ///< frames kept in memory
     std::size_t area_bytes = std::size_t{1} << 30U;   ///< what detectors prepared, kept in memory

@@ -26,6 +26,7 @@ struct SweepPoint {
     std::vector<SweepFigures> figures;
 };
 
+/// How far a sweep is.
 struct SweepProgress {
     int points_done = 0;
     int points_total = 0;
@@ -35,6 +36,7 @@ struct SweepProgress {
     std::string doing;             ///< what all points wait for: "independent motion, frame 120 of 401"; else empty
 };
 
+/// How a sweep is run, and who is told.
 struct SweepRunOptions {
     int threads = 0;                                  ///< 0: as many as there are cores
     std::function<void(const SweepPoint&)> on_point;  ///< one call at a time, from any thread; what it throws ends

@@ -1,5 +1,6 @@
 #include "chain/recording/run_recorder.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "store/project/project_file.h"
@@ -35,6 +36,14 @@ RunRecord record(const std::filesystem::path& project, int stop_after) {
 struct GrowingSource : test::MemorySource {
     using MemorySource::MemorySource;
     bool hasGrown() const noexcept override { return true; }
+};
+
+/// Whose clock was set while it was recorded.
+struct LeapingSource : test::MemorySource {
+    using MemorySource::MemorySource;
+    std::int64_t timeOf(FrameIndex index) const override {
+        return MemorySource::timeOf(index) + (index < 5 ? 0 : 60'000'000);
+    }
 };
 
 }  // namespace
@@ -77,9 +86,21 @@ TEST(RunRecorder, aRunToTheEndOfAVideoThatHasGrownMeanwhileSaysSo) {
     const RunRecord run = record(folder / "p.eyrie", source, 1000);
     EXPECT_EQ(run.state, RunState::finished);
     EXPECT_EQ(run.message,
-              "the video has grown since it was opened; the run ends with frame 7, which was the last one then");
+              "the video has grown since it was opened; the run ends with frame 7, which was the last one then; "
+              "open it again and make a run over the rest");
     EXPECT_EQ(record(folder / "p.eyrie", source, 1000, {0, 5}).message, "") << "whoever asks for a part has that";
     EXPECT_EQ(record(folder / "p.eyrie", source, 3).message, "");
+}
+
+TEST(RunRecorder, aClockThatLeapsAheadIsToldWithItsFrame) {
+    const test::TemporaryFolder folder;
+    test::MovingScene scene;
+    scene.frames = 8;
+    LeapingSource source(scene);
+    EXPECT_THAT(record(folder / "p.eyrie", source, 1000).message,
+                testing::HasSubstr("leaps ahead by 1:00 before frame 5"));
+    EXPECT_EQ(record(folder / "p.eyrie", source, 1000, {0, 4}).message, "");
+    EXPECT_EQ(record(folder / "p.eyrie", source, 1000, {5, 7}).message, "");
 }
 
 }  // namespace eyrie::run_recorder_test

@@ -69,6 +69,35 @@ TEST(ScaleSlopeFit, TheMiddleNeedNotBeExactlyTheGivenScale) {
     EXPECT_NEAR(fitSlope(votes, kImage, kGsd).down_per_px, 0.002, 0.0004);
 }
 
+/// Votes without noise, spread evenly over the picture; growth is that from its middle to an edge.
+ScaleSlope fitOf(double right, double down, int count) {
+    const ScaleSlope slope = ScaleSlope::ofPicture(kImage, right / 500, down / 300);
+    std::vector<ScaleVote> votes;
+    for (int i = 0; i < count; ++i) {
+        const cv::Point2d place(20 + 960.0 * (i * 7 % count) / (count - 1), 20 + 560.0 * i / (count - 1));
+        votes.push_back({place, kGsd / slope.factorAt(place), 8});
+    }
+    return fitSlope(votes, kImage, kGsd);
+}
+
+TEST(ScaleSlopeFit, TwelveVotesAreEnoughAndElevenAreNot) {
+    EXPECT_NEAR(fitOf(0, 0.6, 12).down_per_px, 0.6 / 300, 1e-9);
+    EXPECT_NEAR(fitOf(0, -0.6, 12).down_per_px, -0.6 / 300, 1e-9);
+    EXPECT_TRUE(fitOf(0, 0.6, 11).isFlat());
+}
+
+TEST(ScaleSlopeFit, AGrowthByLessThanASeventhIsNotWorthIt) {
+    EXPECT_NEAR(fitOf(0, 0.15, 300).down_per_px, 0.15 / 300, 1e-9);
+    EXPECT_NEAR(fitOf(0.15, 0, 300).right_per_px, 0.15 / 500, 1e-9);
+    EXPECT_TRUE(fitOf(0, 0.1, 300).isFlat());
+    EXPECT_TRUE(fitOf(0.1, 0, 300).isFlat());
+}
+
+TEST(ScaleSlopeFit, AHorizonThatLeansIsBelievedReluctantly) {
+    EXPECT_NEAR(fitOf(0, 0.9, 40).down_per_px, 0.9 / 300, 1e-9) << "the most that is looked for";
+    EXPECT_NEAR(fitOf(0.3, 0, 40).right_per_px, 0.25 / 500, 1e-9) << "a step less than the votes say";
+}
+
 TEST(ScaleSlopeFit, FewVotesOrVotesInOnePlaceTellNoSlope) {
     EXPECT_TRUE(fitSlope({}, kImage, kGsd).isFlat());
     EXPECT_TRUE(fitSlope(votesUnder(0, 0.002, 11), kImage, kGsd).isFlat());

@@ -9,6 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
+#include "cli/batch/batch_inputs.h"
 #include "io/video/video_writer.h"
 #include "store/database/file_lock.h"
 #include "store/project/project_file.h"
@@ -280,6 +281,48 @@ TEST_F(Batches, filesThatDifferInTheirEndingGetProjectsOfTheirOwn) {
     EXPECT_FALSE(fs::exists(at("out/a.mov.eyrie")));
 }
 
+TEST_F(Batches, aVideoKeepsItsProjectWhenTheOneBesideItGoes) {
+    write("in/a.mov", "not found: ask the archive");
+    put("in/a.mp4");
+    EXPECT_EQ(batch({"--frames", "0:9"}).exit_code, 3);
+    ASSERT_EQ(runsOf("out/a.mp4.eyrie").size(), 1U);
+    fs::remove(folder / "in/a.mov");
+    EXPECT_THAT(batch({"--frames", "0:9"}).output, HasSubstr("1 file: 1 done before"));
+    EXPECT_TRUE(runsOf("out/a.eyrie").empty());
+    EXPECT_EQ(runsOf("out/a.mp4.eyrie").size(), 1U);
+}
+
+TEST_F(Batches, aVideoKeepsItsProjectWhenOthersComeBesideIt) {
+    put("in/a.mp4");
+    ASSERT_EQ(batch({"--frames", "0:9"}).exit_code, 0);
+    put("in/a.mov");
+    put("in/a.mov.mp4");  // would like the name that is left to a.mov
+    EXPECT_THAT(batch({"--frames", "0:9"}).output, HasSubstr("3 files: 2 done, 1 done before"));
+    EXPECT_THAT(batch({"--frames", "0:9"}).output, HasSubstr("3 files: 3 done before"));
+    for (const char* project : {"out/a.eyrie", "out/a.mov.eyrie", "out/a.mov.mp4.eyrie"}) {
+        EXPECT_EQ(runsOf(project).size(), 1U) << project;
+    }
+}
+
+TEST_F(Batches, aFolderThatIsCalledLikeAProjectIsNotInTheWay) {
+    put("in/a.mp4");
+    fs::create_directories(folder / "out/a.eyrie");
+    EXPECT_EQ(batch({"--frames", "0:9"}).exit_code, 0);
+    EXPECT_EQ(runsOf("out/a.mp4.eyrie").size(), 1U);
+}
+
+TEST(WorkOfABatch, isOneForAllThatMayWantTheSameProject) {
+    const auto work = [](const char* name) {
+        cli::BatchInput input;
+        input.path = input.name = name;
+        return cli::nameOfWork(input).string();
+    };
+    for (const char* name : {"day/a.mov", "day/a.mp4", "day/a.mp4.mov", "day/a.mp4.parts", "day/a.MOV.mp4"})
+        EXPECT_EQ(work(name), "day/a") << name;
+    EXPECT_EQ(work("day/a.2024.mp4"), "day/a.2024");
+    EXPECT_EQ(work("night/a.mp4"), "night/a");
+}
+
 TEST_F(Batches, sameNamesInSeveralPlacesStayApart) {
     for (const char* card : {"1", "2", "3"}) put("cards/" + std::string(card) + "/DCIM/film.mp4");
     std::vector<std::string> words{test::programPath("eyrie-cli"),
@@ -396,6 +439,11 @@ TEST_F(Batches, whatCannotBeIsRefusedBeforeTheWork) {
     EXPECT_EQ(batch({"--gsd", "-1"}).exit_code, 2);
     EXPECT_EQ(test::runProcess({test::programPath("eyrie-cli"), "batch", at("absent"), "--out", at("out")}).exit_code,
               3);
+    const auto no_folder =
+        test::runProcess({test::programPath("eyrie-cli"), "batch", at("in"), "--out", at("in/a.mp4/out")});
+    EXPECT_EQ(no_folder.exit_code, 4);
+    EXPECT_THAT(no_folder.errors, HasSubstr("in/a.mp4/out: the folder cannot be made"));
+    EXPECT_THAT(no_folder.errors, HasSubstr("choose another with --out"));
     EXPECT_EQ(test::runProcess({test::programPath("eyrie-cli"), "batch", at("in"), "--out", at("in/a.mp4")}).exit_code,
               4);
     write("out/batch.csv/x", "a folder where the summary should be");

@@ -269,7 +269,7 @@ TEST_F(Evaluate, wrongUseIsRefusedWithTheRemedy) {
     EXPECT_EQ(evaluate({"--ground-truth", truth(), "--result", truth(), "--convention", "mine"}).exit_code, 2);
     const auto run = evaluate({"--ground-truth", truth(), "--project", project(), "--run", "7"});
     EXPECT_EQ(run.exit_code, 2);
-    EXPECT_THAT(run.errors, HasSubstr("holds the runs 1"));
+    EXPECT_THAT(run.errors, HasSubstr("holds run 1 alone"));
 }
 
 TEST_F(Evaluate, unreadableFilesAreRefusedWithTheirPlace) {

@@ -13,6 +13,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 /// A call, the code it ends with, and what its message names.
 struct Call {
@@ -153,6 +154,16 @@ TEST_F(ExitCodes, MisspeltWordsNameTheNearest) {
             {{"run", "x", "--set", "motion.min_sped=1", "--project", "@n.eyrie"}, 2, "motion.min_speed"}});
     EXPECT_EQ(call({"run", "--help"}).exit_code, 0);
     EXPECT_EQ(call({"--version"}).exit_code, 0);
+}
+
+TEST_F(ExitCodes, WhatIsMissingOrNoNumberIsSaidInOneLine) {
+    expect({{{}, 2, "eyrie-cli: a command is missing"},
+            {{"run", "x", "--gsd"}, 2, "eyrie-cli: --gsd needs a value"},
+            {{"run", "x", "--gsd", "--quiet"}, 2, "eyrie-cli: --gsd needs a value"},
+            {{"run", "x", "--gsd", "much"}, 2, "eyrie-cli: --gsd much: expected a number"},
+            {{"evaluate", "--project", "@p.eyrie", "--classes", "cars"}, 2, "eyrie-cli: --classes: cars not in"},
+            {{"compare", "--sequence", "x"}, 2, "eyrie-cli: --ground-truth is required; eyrie-cli compare --help"}});
+    EXPECT_THAT(call({"dance"}).errors, Not(HasSubstr("manual")));  // what people need not know is not listed
 }
 
 TEST_F(ExitCodes, DecimalCommasSayWhatToWrite) {

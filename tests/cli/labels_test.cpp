@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
 #include "cli/loaded_program.h"
@@ -90,6 +92,19 @@ TEST_F(LabelCommands, ShowOnlyShows) {
     EXPECT_TRUE(labelsOf(path).objects.empty());
     const auto late = cli({"import", truth(), "--project", path, "--show", "--shift", "3"});
     EXPECT_THAT(late.output, HasSubstr("--shift -3 more"));
+}
+
+TEST_F(LabelCommands, ARateThatNobodySaidStaysOneInAProjectThatImportMakes) {
+    std::filesystem::create_directories(at("images"));
+    for (int frame = 0; frame < 3; ++frame)
+        cv::imwrite(at("images/" + std::to_string(frame) + ".png"), cv::Mat(60, 80, CV_8UC1, cv::Scalar(90)));
+    const std::string table = write("gt.csv",
+                                    "frame,id,x,y,length,width,heading,class,ignore\n0,1,40,30,20,10,0,car,0\n"
+                                    "2,1,42,30,20,10,0,car,0\n");
+    const auto done = cli({"import", table, "--project", at("new.eyrie"), "--video", at("images")});
+    ASSERT_EQ(done.exit_code, 0) << done.errors;
+    ProjectFile file = ProjectFile::open(at("new.eyrie"), ProjectFile::Mode::read_only);
+    EXPECT_TRUE(sequencesOf(file).front().rate_assumed);
 }
 
 TEST_F(LabelCommands, ImportMakesFewKeyframesAndOneStep) {

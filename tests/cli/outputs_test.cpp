@@ -12,6 +12,7 @@
 
 #include "cli/loaded_program.h"
 #include "io/atomic_file.h"
+#include "io/video/video_writer.h"
 #include "store/project/project_file.h"
 #include "store/runs/result_writer.h"
 #include "support/moving_scene.h"
@@ -56,6 +57,19 @@ class Outputs : public testing::Test {
         fs::create_directories(folder_ / "frames");
         for (int i = 0; i < count; ++i) cv::imwrite(at("frames/" + std::to_string(100 + i) + ".png"), scene.draw(i));
         return at("frames");
+    }
+    /// A command that gets Ctrl-C as soon as it takes any: held back until then, so that no moment has to be met.
+    static test::ProcessResult stoppedAtOnce(std::vector<std::string> words) {
+        words.insert(words.begin(), test::programPath("eyrie-cli"));
+        sigset_t ctrl_c;
+        sigemptyset(&ctrl_c);
+        sigaddset(&ctrl_c, SIGINT);
+        sigset_t before;
+        pthread_sigmask(SIG_BLOCK, &ctrl_c, &before);
+        test::Process process(words);
+        kill(process.pid(), SIGINT);
+        pthread_sigmask(SIG_SETMASK, &before, nullptr);
+        return process.wait();
     }
     /// Words that begin with "@" are paths in the folder.
     test::ProcessResult call(std::vector<std::string> arguments) const {
@@ -288,18 +302,21 @@ TEST_F(Outputs, AClosedTerminalStopsARunCleanly) {
     EXPECT_THAT(result.output, HasSubstr("stopped"));
 }
 
+TEST_F(Outputs, CtrlCWhileAVideoIsIndexedIsAStopAndNoFaultOfTheVideo) {
+    {
+        VideoWriter video(at("short.mp4"), {64, 48});
+        for (int i = 0; i < 5; ++i) video.write(cv::Mat(48, 64, CV_8UC3, cv::Scalar::all(40 + 20 * i)));
+        video.finish();
+    }
+    const auto result = stoppedAtOnce({"run", at("short.mp4"), "--gsd", "0.2", "--project", at("n.eyrie")});
+    EXPECT_EQ(result.exit_code, 130) << result.errors;
+    EXPECT_THAT(result.errors, HasSubstr("short.mp4: stopped while indexing"));
+    EXPECT_FALSE(fs::exists(at("n.eyrie")));
+}
+
 TEST_F(Outputs, CtrlCEndsAnExportAndLeavesNothing) {
-    // Held back until the command takes it, so that no moment has to be met.
-    sigset_t ctrl_c;
-    sigemptyset(&ctrl_c);
-    sigaddset(&ctrl_c, SIGINT);
-    sigset_t before;
-    pthread_sigmask(SIG_BLOCK, &ctrl_c, &before);
-    test::Process process({test::programPath("eyrie-cli"), "export", "--project", at("p.eyrie"), "--format", "native",
-                           "--out", at("tracks.csv")});
-    kill(process.pid(), SIGINT);
-    pthread_sigmask(SIG_SETMASK, &before, nullptr);
-    const auto result = process.wait();
+    const auto result =
+        stoppedAtOnce({"export", "--project", at("p.eyrie"), "--format", "native", "--out", at("tracks.csv")});
     EXPECT_EQ(result.exit_code, 130) << result.errors;
     EXPECT_THAT(result.errors, HasSubstr("tracks.csv: stopped before it was written"));
     EXPECT_FALSE(fs::exists(at("tracks.csv")));

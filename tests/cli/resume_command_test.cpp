@@ -179,7 +179,7 @@ TEST_F(RunAgain, RefusesWhatContradictsTheRun) {
     EXPECT_THAT(refusal({"--fps", "10"}), HasSubstr("--fps 25"));
     EXPECT_THAT(refusal({"--set", "view.oblique=false", "--set", "tracking.min_overlap=0.33"}),
                 HasSubstr("tracking.min_overlap="));
-    EXPECT_THAT(refusal({"--run", "7"}), HasSubstr("holds the runs 1"));
+    EXPECT_THAT(refusal({"--run", "7"}), HasSubstr("holds run 1 alone"));
     EXPECT_EQ(cli({"run", "--project", at("p.eyrie")}).exit_code, 2) << "neither INPUT nor --resume";
     EXPECT_EQ(cli(command("p.eyrie", {"--run", "1"})).exit_code, 2) << "--run without --resume";
     EXPECT_EQ(framesDone("p.eyrie"), done);

@@ -9,6 +9,10 @@ TEST(MeasureText, NumbersArePlain) {
     EXPECT_EQ(numberText(0.1234), "0.123");
     EXPECT_EQ(numberText(12345.6), "12346");
     EXPECT_EQ(numberText(2), "2");
+    EXPECT_EQ(numberText(1000), "1000");
+    EXPECT_EQ(numberText(999.6), "1000");
+    EXPECT_EQ(numberText(999.4), "999");
+    EXPECT_EQ(numberText(-12345.6), "-12346");
     EXPECT_EQ(countText(1, "corner", "corners"), "1 corner");
     EXPECT_EQ(countText(3, "corner", "corners"), "3 corners");
 }

@@ -93,10 +93,64 @@ TEST(Parameter, refusesWithNameValueAndRange) {
     EXPECT_DOUBLE_EQ(options.quantile, 0.12);
 }
 
+TEST(Parameter, takesBothLimitsAndNothingBeyond) {
+    ExampleOptions options;
+    const auto set = [&](const char* name, const char* value) { setParameter(describeOf(options), name, value); };
+    for (const char* good : {"0", "1", "0.5"}) EXPECT_NO_THROW(set("example.quantile", good)) << good;
+    for (const char* bad : {"-0.001", "1.001"}) EXPECT_THROW(set("example.quantile", bad), Error) << bad;
+    for (const char* good : {"1", "500"}) EXPECT_NO_THROW(set("example.height", good)) << good;
+    for (const char* bad : {"501", "2.5", "3x", ""}) EXPECT_THROW(set("example.height", bad), Error) << bad;
+    EXPECT_EQ(options.quantile, 0.5);
+    EXPECT_EQ(options.height, 500);
+}
+
+TEST(Parameter, takesTheWordsOfSwitchesAndChoices) {
+    ExampleOptions options;
+    const auto set = [&](const char* name, const char* value) { setParameter(describeOf(options), name, value); };
+    for (const char* no : {"false", "off", "no", "0"}) {
+        options.enabled = true;
+        set("example.enabled", no);
+        EXPECT_FALSE(options.enabled) << no;
+    }
+    for (const char* yes : {"true", "on", "yes", "1"}) {
+        options.enabled = false;
+        set("example.enabled", yes);
+        EXPECT_TRUE(options.enabled) << yes;
+    }
+    EXPECT_THROW(set("example.enabled", "maybe"), Error);
+    EXPECT_TRUE(options.enabled) << "as it was";
+    set("example.method", "clusters");
+    EXPECT_EQ(options.method, Method::clusters);
+    set("example.method", "gradient");
+    EXPECT_EQ(options.method, Method::gradient);
+}
+
+TEST(Parameter, isListedWithItsKindAndLimits) {
+    ExampleOptions options;
+    const auto listed = listParameters(describeOf(options));
+    ASSERT_EQ(listed.size(), 5U);
+    const auto limits = [&](std::size_t i) { return std::pair(listed[i].min, listed[i].max); };
+    EXPECT_EQ(listed[0].kind, ParameterKind::real);
+    EXPECT_EQ(limits(0), std::pair(0.0, 1.0));
+    EXPECT_EQ(listed[1].kind, ParameterKind::integer);
+    EXPECT_EQ(limits(1), std::pair(1.0, 500.0));
+    EXPECT_EQ(listed[2].kind, ParameterKind::flag);
+    EXPECT_EQ(limits(2), std::pair(0.0, 1.0));
+    EXPECT_EQ(listed[3].kind, ParameterKind::choice);
+    EXPECT_EQ(limits(3), std::pair(0.0, 1.0)) << "two words, by their numbers";
+    EXPECT_EQ(listed[4].kind, ParameterKind::words);
+    EXPECT_EQ(limits(4), std::pair(0.0, 0.0));
+}
+
 TEST(Parameter, anUnknownNameSuggestsTheNearest) {
     ExampleOptions options;
     EXPECT_THAT(messageOf([&] { setParameter(describeOf(options), "example.hight", "3"); }),
                 testing::HasSubstr("\"example.height\""));
+    EXPECT_THAT(messageOf([&] { setParameter(describeOf(options), "example.methxx", "3"); }),
+                testing::HasSubstr("\"example.method\""));
+    EXPECT_THAT(messageOf([&] { setParameter(describeOf(options), "example.xxxxxx", "3"); }),
+                testing::HasSubstr("\"example.height\""))
+        << "the first of three that are as near";
 }
 
 }  // namespace eyrie::parameter_test

@@ -30,11 +30,40 @@ TEST(PlaceText, IsReadAsPeopleCopyIt) {
     EXPECT_EQ(plain->latitude_deg, 48);
     EXPECT_EQ(plain->longitude_deg, 11);
     EXPECT_EQ(placeOfText("-33.5, -70.25")->longitude_deg, -70.25);
+    const auto seconds = placeOfText("12°30'36\"S 0°0'9\"W");
+    ASSERT_TRUE(seconds);
+    EXPECT_NEAR(seconds->latitude_deg, -12.51, 1e-12);
+    EXPECT_NEAR(seconds->longitude_deg, -0.0025, 1e-12);
+    for (const double sign : {-1.0, 1.0}) {
+        const auto corner = placeOfText(placeText({sign * 90, sign * 180}));
+        ASSERT_TRUE(corner) << "the poles and the date line are places";
+        EXPECT_EQ(*corner, (GeoPoint{sign * 90, sign * 180}));
+    }
+    EXPECT_EQ(placeOfText("0, 9"), (GeoPoint{0, 9}));
 }
 
 TEST(PlaceText, WhatIsNoPlaceIsRefused) {
-    for (const char* text : {"", "48.1", "Munich", "91, 11", "48, 181", "48.1, 11.5, 3", "48.1N 11.5N", "48.1E 11.5W",
-                             "-48.1S, 11.5E", "48.1 11.5 m", "48°61'N 11°E", "nan, 11", "1e5, 3", "48.1-11.5"})
+    for (const char* text : {"",
+                             "48.1",
+                             "Munich",
+                             "91, 11",
+                             "48, 181",
+                             "48.1, 11.5, 3",
+                             "48.1N 11.5N",
+                             "48.1E 11.5W",
+                             "-48.1S, 11.5E",
+                             "48.1 11.5 m",
+                             "48°61'N 11°E",
+                             "48°60'N 11°E",
+                             "48°1'60\"N 11°E",
+                             "90.1, 11",
+                             "48, -180.1",
+                             "48;",
+                             ",",
+                             "48.1 N",
+                             "nan, 11",
+                             "1e5, 3",
+                             "48.1-11.5"})
         EXPECT_FALSE(placeOfText(text)) << text;
 }
 

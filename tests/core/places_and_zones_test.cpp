@@ -45,16 +45,18 @@ TEST(Zone, FaultsAreThoseThatMakeItUseless) {
         return faultOf(zone);
     };
     EXPECT_EQ(fault(ZoneShape::line, {{0, 0}, {30, 0}}), "");
-    EXPECT_EQ(fault(ZoneShape::line, {{5, 5}, {5, 5}}), "the line has no length");
+    EXPECT_EQ(fault(ZoneShape::line, {{5, 5}, {5, 5}}), "the line has no length: draw its points apart");
     EXPECT_EQ(fault(ZoneShape::line, {{5, 5}}), "a line needs two points or more");
     EXPECT_EQ(fault(ZoneShape::arrow, {{0, 0}, {30, 0}, {40, 5}}), "");
-    EXPECT_EQ(fault(ZoneShape::arrow, {{5, 5}, {5, 5}}), "the arrow has no length");
+    EXPECT_EQ(fault(ZoneShape::arrow, {{5, 5}, {5, 5}}), "the arrow has no length: draw its points apart");
     EXPECT_EQ(fault(ZoneShape::arrow, {{5, 5}}), "an arrow needs two points or more");
     EXPECT_EQ(fault(ZoneShape::area, {{0, 0}, {30, 0}}), "an area needs three points or more");
     EXPECT_EQ(fault(ZoneShape::area, {{0, 0}, {30, 0}, {30, 20}}), "");
     EXPECT_EQ(fault(ZoneShape::area, {{0, 0}, {30, 0}, {30, 20}, {0, 20}}), "");
-    EXPECT_EQ(fault(ZoneShape::area, {{0, 0}, {30, 20}, {30, 0}, {0, 20}}), "the outline crosses itself");
-    EXPECT_EQ(fault(ZoneShape::area, {{0, 0}, {10, 10}, {20, 20}}), "the zone has no area");
+    EXPECT_EQ(fault(ZoneShape::area, {{0, 0}, {30, 20}, {30, 0}, {0, 20}}),
+              "the outline crosses itself: give its corners in their order around the area");
+    EXPECT_EQ(fault(ZoneShape::area, {{0, 0}, {10, 10}, {20, 20}}),
+              "the zone has no area: its corners must not be on one line");
 }
 
 }  // namespace eyrie::places_and_zones_test

@@ -52,6 +52,13 @@ TEST(ScaleSlope, TheScaleOfAnObliqueViewIsToldWithItsEdges) {
     scale.slope = kTilted;
     EXPECT_EQ(describe(scale, {ScaleOrigin::given}, {201, 101}),
               "0.2 m/px in the middle of an oblique view (0.4 at its upper edge, 0.13 at its lower edge), as given");
+    scale.slope = ScaleSlope::ofPicture({201, 101}, -0.002, 0.01);
+    EXPECT_EQ(describe(scale, {ScaleOrigin::given}, {201, 101}),
+              "0.2 m/px in the middle of an oblique view (0.4 at its upper edge, 0.13 at its lower edge), as given")
+        << "along the axis over which it changes more";
+    scale.slope = ScaleSlope::ofPicture({201, 101}, 0.005, -0.002);
+    EXPECT_EQ(describe(scale, {ScaleOrigin::given}, {201, 101}),
+              "0.2 m/px in the middle of an oblique view (0.4 at its left edge, 0.13 at its right edge), as given");
     scale.slope = ScaleSlope::ofPicture({201, 101}, 0.005, 0);
     EXPECT_EQ(describe(scale, {ScaleOrigin::given}, {201, 101}),
               "0.2 m/px in the middle of an oblique view (0.4 at its left edge, 0.13 at its right edge), as given");

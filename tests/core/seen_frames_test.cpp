@@ -37,6 +37,41 @@ TEST(SeenFrames, SpansThatMeetAreOne) {
     EXPECT_DOUBLE_EQ(seenShare({{0, 9}}, {5, 4}), 0);
 }
 
+TEST(SeenFrames, ASpanMayBeOneFrameAndAGapToo) {
+    EXPECT_THAT(mergedSpans({{7, 7}}), ElementsAre(FrameSpan{7, 7}));
+    EXPECT_THAT(mergedSpans({{6, 9}, {0, 4}}), ElementsAre(FrameSpan{0, 4}, FrameSpan{6, 9})) << "nobody saw frame 5";
+    EXPECT_THAT(mergedSpans({}), IsEmpty());
+    EXPECT_DOUBLE_EQ(seenShare({{5, 5}}, {5, 5}), 1);
+    EXPECT_DOUBLE_EQ(seenShare({{0, 1}, {50, 60}}, {10, 19}), 0) << "seen elsewhere";
+    EXPECT_DOUBLE_EQ(seenShare({{0, 100}}, {10, 19}), 1);
+}
+
+/// What is seen of steps of a length in the video, ten pictures a second, until the speed was measured once.
+std::vector<FrameSpan> seenBySteps(double step_s, int steps) {
+    SeenRecorder recorder;
+    for (int i = 0; i <= steps; ++i) recorder.show(i, i * step_s, 10 + i * 0.1);
+    return recorder.take();
+}
+
+TEST(SeenFrames, SpeedsAreMeasuredOverHalfASecondAndWithATwentiethOfSlack) {
+    EXPECT_THAT(seenBySteps(0.1, 4), IsEmpty()) << "too short to tell";
+    EXPECT_EQ(seenBySteps(0.1, 6).size(), 1U);
+    EXPECT_EQ(seenBySteps(0.415, 6).size(), 1U);
+    EXPECT_THAT(seenBySteps(0.425, 6), IsEmpty());
+}
+
+TEST(SeenFrames, AStepOfMoreThanHalfASecondIsALeap) {
+    const auto seenAfterStep = [](double step_s) {
+        SeenRecorder recorder;
+        recorder.show(0, 0, 10);
+        recorder.show(15, step_s, 10.6);
+        recorder.interrupt(10.7);
+        return recorder.take();
+    };
+    EXPECT_THAT(seenAfterStep(0.4), ElementsAre(FrameSpan{0, 15}));
+    EXPECT_THAT(seenAfterStep(0.6), ElementsAre(FrameSpan{0, 0}));
+}
+
 TEST(SeenFrames, UpToFourTimesTheSpeedIsSeenFasterIsNot) {
     for (const double speed : {0.25, 1.0, 4.0, -2.0}) {
         Player player;

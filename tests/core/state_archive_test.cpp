@@ -98,6 +98,15 @@ TEST(StateArchive, NeverTakesMemoryForWhatIsNotThere) {
     }
 }
 
+TEST(StateArchive, ChecksumsAreThoseOfTheStatesThatProjectsKeep) {
+    EXPECT_EQ(checksumOf(std::string_view("")), 0xaf63bd4c29620a93ULL);
+    EXPECT_EQ(checksumOf(std::string_view("eyrie")), 0xdd8517e1b2eb3d21ULL);
+    EXPECT_EQ(checksumOf(std::string_view("12345678")), 0x991b59351ed9dd43ULL);
+    EXPECT_EQ(checksumOf(std::string_view("123456789abc")), 0x39f9715d38e2827eULL);
+    const cv::Mat gray = (cv::Mat_<std::uint8_t>(2, 3) << 1, 2, 3, 4, 5, 6);
+    EXPECT_EQ(checksumOf(gray), 0x8aff28c43838ae7bULL);
+}
+
 TEST(StateArchive, AsksForPicturesInTheOrderOfTheVideo) {
     const cv::Mat gray(4, 9, CV_8UC1, cv::Scalar(7));
     StateWriter writer;

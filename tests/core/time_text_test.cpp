@@ -10,6 +10,15 @@ TEST(TimeText, IsRoundedToItsDecimals) {
     EXPECT_EQ(timeText(3'602'000'000, 0), "1:00:02");
     EXPECT_EQ(timeText(59'996'000, 2), "1:00.00") << "rounding carries";
     EXPECT_EQ(timeText(-500'000, 1), "-0:00.5");
+    EXPECT_EQ(timeText(50'000, 1), "0:00.1") << "a half rounds up";
+    EXPECT_EQ(timeText(49'999, 1), "0:00.0");
+    EXPECT_EQ(timeText(-50'000, 1), "-0:00.1");
+    EXPECT_EQ(timeText(62'008'000, 3), "1:02.008") << "zeros in front are decimals";
+    EXPECT_EQ(timeText(62'008'000, 9), "1:02.008") << "there are three at most";
+    EXPECT_EQ(timeText(62'008'000, -1), "1:02");
+    EXPECT_EQ(timeText(3'599'000'000, 0), "59:59");
+    EXPECT_EQ(timeText(3'600'000'000, 0), "1:00:00");
+    EXPECT_EQ(timeText(36'671'000'000, 0), "10:11:11");
     EXPECT_EQ(timeText(-4'000, 1), "0:00.0") << "nothing is before or behind zero";
 }
 

@@ -120,5 +120,30 @@ TEST(TrackClass, AllBoxesOfATrackGetTheClassOfItsMeans) {
     EXPECT_EQ(boxes[0][0].object_class, "") << "without a scale nothing is told";
 }
 
+TEST(TrackClass, InAnObliqueViewBoxesAreMeasuredWhereTheyAre) {
+    SceneScale scale = known();
+    scale.slope = ScaleSlope::ofPicture({201, 101}, 0, 0.01);
+    // At the lower edge a metre has half as many pixels more: 7.5 instead of 5.
+    const auto classAtTheEdge = [&](double length_px, double width_px, cv::Point2d velocity) {
+        BoxesByFrame boxes;
+        BoxRecord record;
+        record.id = 1;
+        record.box = {{100, 100}, length_px, width_px, 0};
+        record.velocity = velocity;
+        boxes[0].push_back(record);
+        TrackClassOptions at_once;
+        at_once.min_life_s = 0;
+        nameClasses(boxes, scale, at_once);
+        return boxes[0][0].object_class;
+    };
+    EXPECT_EQ(classAtTheEdge(15, 7.5, {}), "two_wheeler") << "2 m long, 1 m wide";
+    EXPECT_EQ(classAtTheEdge(20, 7.5, {}), "vehicle") << "2.7 m long";
+    EXPECT_EQ(classAtTheEdge(15, 10, {}), "vehicle") << "1.33 m wide";
+    EXPECT_EQ(classAtTheEdge(6, 6, {0, 1}), "person") << "at 3.3 m/s";
+    EXPECT_EQ(classAtTheEdge(6, 6, {1, 0}), "person");
+    EXPECT_EQ(classAtTheEdge(6, 6, {0, 1.2}), "") << "at 4 m/s";
+    EXPECT_EQ(classAtTheEdge(6, 6, {1.2, 0}), "");
+}
+
 }  // namespace
 }  // namespace eyrie::track_class_test

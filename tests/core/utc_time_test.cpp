@@ -24,9 +24,25 @@ TEST(UtcTime, WhatHasNoFourDigitsOfYearHasNoText) {
     }
 }
 
+TEST(UtcTime, TheFirstAndTheLastMomentOfTheCalendarHaveTexts) {
+    constexpr std::int64_t kFirst_s = -62'167'219'200;
+    EXPECT_EQ(utcTextOfSeconds(kFirst_s), "0000-01-01T00:00:00Z");
+    EXPECT_EQ(utcTextOfSeconds(kFirst_s - 1), "");
+    EXPECT_EQ(utcText(kFirst_s * 1'000'000), "0000-01-01T00:00:00.000000Z");
+    EXPECT_EQ(utcText(kFirst_s * 1'000'000 - 1), "");
+    EXPECT_EQ(utcText(253'402'300'799'999'999), "9999-12-31T23:59:59.999999Z");
+    EXPECT_EQ(utcText(253'402'300'800'000'000), "");
+    EXPECT_EQ(utcOf("9999-12-31T23:59:59.999999Z"), 253'402'300'799'999'999);
+    EXPECT_EQ(utcOf("0000-01-01T00:00:00Z"), kFirst_s * 1'000'000);
+}
+
 TEST(UtcTime, TheTimeOfTheDayStandsAlone) {
     EXPECT_EQ(timeOfDayText(1'231'798'102'999'999), "22:08:22") << "cut off, as clocks do";
     EXPECT_EQ(timeOfDayText(1'231'798'102'540'000, 2), "22:08:22.54");
+    EXPECT_EQ(timeOfDayText(1'231'798'102'540'000, 1), "22:08:22.5");
+    EXPECT_EQ(timeOfDayText(1'231'798'102'540'001, 6), "22:08:22.540001");
+    EXPECT_EQ(timeOfDayText(1'231'798'102'540'001, 9), "22:08:22.540001") << "there are no more";
+    EXPECT_EQ(timeOfDayText(1'231'798'102'540'001, -1), "22:08:22");
     EXPECT_EQ(timeOfDayText(0), "00:00:00");
     EXPECT_EQ(timeOfDayText(std::numeric_limits<std::int64_t>::max()), "");
 }
@@ -36,15 +52,37 @@ TEST(UtcTime, TextsAreReadBack) {
         EXPECT_EQ(utcOf(utcText(us)), us) << us;
     EXPECT_EQ(utcOf("2009-01-12 22:08:22"), 1'231'798'102'000'000);
     EXPECT_EQ(utcOf("2009-01-12T22:08:22.5Z"), 1'231'798'102'500'000);
+    EXPECT_EQ(utcOf("2009-01-12T22:08:22.000001Z"), 1'231'798'102'000'001);
+    EXPECT_EQ(utcOf("1999-09-19T19:59:09.99"), 937'771'149'990'000);
     EXPECT_EQ(utcOf(nowUtc()).has_value(), true);
 }
 
 TEST(UtcTime, WhatIsNoMomentIsRefused) {
-    for (const char* text :
-         {"", "now", "2009-01-12", "2009-01-12T22:08", "2009-02-29T00:00:00Z", "2009-13-01T00:00:00Z",
-          "2009-00-10T00:00:00Z", "2009-01-12T24:00:00Z", "2009-01-12T22:60:22Z", "2009-01-12T22:08:60Z",
-          "2009-01-12T22:08:22.Z", "2009-01-12T22:08:22.1234567Z", "2009-01-12T22:08:22+01:00", "2009-01-12T22:08:22ZZ",
-          " 2009-01-12T22:08:22Z", "-009-01-12T22:08:22Z", "2009-1-12T22:08:22Z"})
+    for (const char* text : {"",
+                             "now",
+                             "2009-01-12",
+                             "2009-01-12T22:08",
+                             "2009-02-29T00:00:00Z",
+                             "2009-13-01T00:00:00Z",
+                             "2009-00-10T00:00:00Z",
+                             "2009-01-12T24:00:00Z",
+                             "2009-01-12T22:60:22Z",
+                             "2009-01-12T22:08:60Z",
+                             "2009-01-12T22:08:22.Z",
+                             "2009-01-12T22:08:22.1234567Z",
+                             "2009-01-12T22:08:22+01:00",
+                             "2009-01-12T22:08:22ZZ",
+                             " 2009-01-12T22:08:22Z",
+                             "-009-01-12T22:08:22Z",
+                             "2009-1-12T22:08:22Z",
+                             "2009-01-12x22:08:22Z",
+                             "2009 01-12T22:08:22Z",
+                             "2009-01-12T22 08:22Z",
+                             "20:9-01-12T22:08:22Z",
+                             "20/9-01-12T22:08:22Z",
+                             "2009-01-32T22:08:22Z",
+                             "2009-01-00T22:08:22Z",
+                             "2009-01-12T22:08:22,5Z"})
         EXPECT_EQ(utcOf(text), std::nullopt) << text;
 }
 

@@ -143,13 +143,20 @@ TEST_F(VmtiExport, EveryFrameOfTheTracksHasASetAtTheTimeOfItsPicture) {
             const vmti::Target& target = set.targets[0];
             EXPECT_EQ(target.id, 7U);
             EXPECT_EQ(target.centre, cv::Point(20 + 3 * frame, 60));
-            EXPECT_EQ(target.top_left.x, 10 + 3 * frame) << "integers are the middles of pixels";
+            EXPECT_EQ(target.top_left, cv::Point(10 + 3 * frame, 55)) << "integers are the middles of pixels";
+            EXPECT_EQ(target.bottom_right, cv::Point(30 + 3 * frame, 65)) << "the last that is touched";
             EXPECT_EQ(target.confidence_percent, 75);
             EXPECT_EQ(target.seen_before, frame < 10 ? frame - 5 : frame - 7);
             // A step of the code for longitudes is 2.4e-7.
             EXPECT_NEAR(target.place->longitude_deg, 11 + (20 + 3 * frame) * 1e-6, 2.5e-7);
             EXPECT_EQ(target.track, sets[0].frame.targets[0].track) << "one name for the whole track";
             EXPECT_EQ(target.first_utc_us, kFilmBegin + 200'000);
+            EXPECT_EQ(target.last_utc_us, set.utc_us) << "as far as is known by then";
+            EXPECT_EQ(target.detection, vmti::Detection::active);
+            // 3e-6 degrees of longitude a frame at 48 degrees north are 0.2239 m, 25 times a second.
+            ASSERT_TRUE(target.velocity);
+            EXPECT_NEAR(target.velocity->east_m_s, 5.6, 0.1);
+            EXPECT_NEAR(target.velocity->north_m_s, 0, 0.1);
         }
     }
 }

@@ -236,6 +236,12 @@ TEST_F(DamagedLabels, UnknownFilesAreRefusedWithAdvice) {
     EXPECT_THAT(refusal("auto", "hello world\nthis is prose\n"),
                 AllOf(HasSubstr("matches no known format"), HasSubstr("--format")));
     EXPECT_THAT(messageOf([&] { readLabels(folder_ / "absent.txt"); }), HasSubstr("absent.txt: there is no such file"));
+    std::ofstream(folder_ / "clip.mp4") << std::string(
+                                               "\0\0\0\x18"
+                                               "ftypisom\0\0\0\0",
+                                               16)
+                                        << "no labels";
+    EXPECT_THAT(messageOf([&] { readLabels(folder_ / "clip.mp4"); }), HasSubstr("is a video and no file of labels"));
     EXPECT_THAT(messageOf([&] { readLabels(folder_.path()); }), HasSubstr("the folder matches no known label format"));
     EXPECT_THAT(messageOf([&] { readLabels(folder_.path(), "nonsense"); }),
                 HasSubstr("\"nonsense\" is unknown; there are native"));

@@ -65,6 +65,16 @@ TEST(DamagedKlv, aWrongChecksumCostsOneSet) {
     EXPECT_EQ(stream.damaged(), 1);
 }
 
+TEST(DamagedKlv, whereTheFirstDamageLiesIsKnown) {
+    KlvBytes bad = goodSet(1);
+    bad[bad.size() - 8] ^= 0x10;
+    const MetadataStream stream =
+        collected({{goodSet(0), kNoStamp, 5}, {bad, kNoStamp, 30}, {bad, kNoStamp, 55}, {goodSet(2), kNoStamp, 80}});
+    ASSERT_TRUE(stream.first_damage);
+    EXPECT_EQ(stream.first_damage->pictures_before, 30);
+    EXPECT_FALSE(collected({{goodSet(0), kNoStamp, 5}}).first_damage);
+}
+
 TEST(DamagedKlv, aSetWithoutChecksumIsBelievedAndCounted) {
     const MetadataStream stream = collected({{LocalSetWriter().time(5).angle(13, 50, 90).bytesWithoutChecksum()}});
     EXPECT_EQ(stream.packets.size(), 1U);
@@ -140,6 +150,16 @@ TEST(DamagedKlv, clocksThatJumpAreCounted) {
     EXPECT_EQ(stream.steps_back, 1);
     EXPECT_EQ(stream.leaps, 1);
     EXPECT_EQ(stream.packets.size(), 5U);
+}
+
+TEST(DamagedKlv, whereTheClockJumpsFirstIsKnown) {
+    const auto at = [](std::uint64_t utc_s, int frame) {
+        return Carried{LocalSetWriter().time(utc_s * 1'000'000).bytes(), kNoStamp, frame};
+    };
+    const MetadataStream stream = collected({at(100, 0), at(101, 25), at(90, 50), at(500, 75)});
+    ASSERT_TRUE(stream.first_jump);
+    EXPECT_EQ(stream.first_jump->pictures_before, 50);
+    EXPECT_FALSE(collected({at(100, 0), at(101, 25)}).first_jump);
 }
 
 TEST(DamagedKlv, otherSetsAreCountedAndLeftAlone) {

@@ -23,6 +23,9 @@ TEST(MetadataText, WhatWasDamagedIsCountedByItsReason) {
     stream.faults[2] = 1;
     EXPECT_EQ(damageText(stream), std::string(klv::nameOf(static_cast<klv::Fault>(1))) + " 12×, " +
                                       klv::nameOf(static_cast<klv::Fault>(2)) + " 1×");
+    const std::string without = damageText(stream);
+    stream.first_damage = MetadataPlace{310};
+    EXPECT_EQ(damageText(stream), without + "; the first near frame 310");
 }
 
 TEST(MetadataText, MomentsAreUtc) {

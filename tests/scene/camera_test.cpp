@@ -127,4 +127,36 @@ TEST(Camera, seesTheGroundItSays) {
     EXPECT_NEAR(seen.height, 481 * 0.4, 1e-6);
 }
 
+TEST(Camera, keysAreJoinedByACubicWithTheSlopesOfTheirNeighbours) {
+    CameraPath path;
+    path.image_size = {640, 480};
+    path.keys.resize(3);
+    path.keys[1].frame = 10;
+    path.keys[2].frame = 30;
+    path.keys[0].height = 100;
+    path.keys[1].height = path.keys[2].height = 200;
+    const auto heightAt = [&](double frame) { return path.at(frame).position.z; };
+    // From 100 with a slope of 10 a frame to 200 with one of 10/3, over 10 frames.
+    EXPECT_NEAR(heightAt(5), 0.5 * 100 + 0.125 * 10 * 10 + 0.5 * 200 - 0.125 * 10 * 10 / 3, 1e-9);
+    EXPECT_NEAR(heightAt(3), 0.784 * 100 + 0.147 * 10 * 10 + 0.216 * 200 - 0.063 * 10 * 10 / 3, 1e-9);
+    // On with that slope to a level end, over 20 frames.
+    EXPECT_NEAR(heightAt(20), 200 + 0.125 * 20 * 10 / 3, 1e-9);
+    EXPECT_NEAR(heightAt(10), 200, 1e-9);
+    EXPECT_EQ(heightAt(-5), 100) << "before the first key it stands";
+    EXPECT_EQ(heightAt(99), 200);
+}
+
+TEST(Camera, tiltMovesItBackByItsHeight) {
+    CameraKey key;
+    key.target = {7, -3};
+    key.height = 100;
+    key.tilt = radiansFromDegrees(45);
+    EXPECT_NEAR(pathWith(key).at(0).position.x, 7, 1e-9);
+    EXPECT_NEAR(pathWith(key).at(0).position.y, 97, 1e-9) << "south of what it looks at";
+    EXPECT_NEAR(pathWith(key).at(0).depth({7, -3, 0}), 100 * std::sqrt(2), 1e-9);
+    key.heading = kPi / 2;
+    EXPECT_NEAR(pathWith(key).at(0).position.x, 7 - 100, 1e-9) << "image right is south, so the top looks east";
+    EXPECT_NEAR(pathWith(key).at(0).position.y, -3, 1e-9);
+}
+
 }  // namespace eyrie::camera_test

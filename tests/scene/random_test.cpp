@@ -42,6 +42,24 @@ TEST(Noise, isContinuousAndWithinOne) {
     EXPECT_LT(largest_step, 0.08);
 }
 
+TEST(Noise, blendsTheValuesOfTheFourCorners) {
+    const auto corner = [](std::uint32_t x, std::uint32_t y) {
+        return static_cast<double>(hashOf(x, y, 9) >> 8U) * 2 / 16777215 - 1;
+    };
+    EXPECT_NEAR(valueNoise(3, 5, 9), corner(3, 5), 1e-6);
+    EXPECT_NEAR(valueNoise(3.5, 5, 9), (corner(3, 5) + corner(4, 5)) / 2, 1e-6);
+    // A quarter of the way counts 3/16 less 1/32.
+    EXPECT_NEAR(valueNoise(3.25, 5, 9), corner(3, 5) * 0.84375 + corner(4, 5) * 0.15625, 1e-6);
+    EXPECT_NEAR(valueNoise(3, 5.25, 9), corner(3, 5) * 0.84375 + corner(3, 6) * 0.15625, 1e-6);
+    EXPECT_NEAR(valueNoise(3.5, 5.5, 9), (corner(3, 5) + corner(4, 5) + corner(3, 6) + corner(4, 6)) / 4, 1e-6);
+}
+
+TEST(Noise, octavesAreTurnedFinerAndWeaker) {
+    EXPECT_EQ(fractalNoise(3.3, 5.7, 9, 1, 0.5F), valueNoise(3.3, 5.7, 9));
+    const double second = valueNoise(2 * (0.8 * 3.3 - 0.6 * 5.7), 2 * (0.6 * 3.3 + 0.8 * 5.7), 9 + 131);
+    EXPECT_NEAR(fractalNoise(3.3, 5.7, 9, 2, 0.5F), (valueNoise(3.3, 5.7, 9) + 0.5 * second) / 1.5, 1e-6);
+}
+
 TEST(PortableMath, agreesWithTheStandardLibrary) {
     for (double x = -30; x < 30; x += 0.0137) {
         EXPECT_NEAR(portable::sine(x), std::sin(x), 1e-13) << x;

@@ -133,4 +133,41 @@ TEST(SceneTruth, objectsLiveFromTheirFirstToTheirLastPose) {
     EXPECT_TRUE(truthOf(scene, 11).empty());
 }
 
+TEST(SceneTruth, speedIsTheMeanOverTenFramesOnEitherSide) {
+    constexpr int frames = 60;
+    SceneDescription scene = plainScene(frames);
+    MovingObject object = driving(1, carLook(), {0, 0}, 0, 0, frames);
+    // It stands until frame 30 and then drives 0.2 m a frame, 5 m/s.
+    for (std::size_t i = 30; i < object.poses.size(); ++i)
+        object.poses[i].position.x = 0.2 * static_cast<double>(i - 30);
+    scene.objects.push_back(object);
+    EXPECT_NEAR(truthOf(scene, 20).front().speed, 0, 1e-9);
+    EXPECT_NEAR(truthOf(scene, 21).front().speed, 0.2 / 20 * 25, 1e-9) << "one step of twenty";
+    EXPECT_NEAR(truthOf(scene, 30).front().speed, 2.5, 1e-9);
+    EXPECT_NEAR(truthOf(scene, 40).front().speed, 5, 1e-9);
+    EXPECT_NEAR(truthOf(scene, 0).front().speed, 0, 1e-9);
+    EXPECT_NEAR(truthOf(scene, frames - 1).front().speed, 5, 1e-9) << "over what there is";
+}
+
+TEST(SceneTruth, posesLieBetweenThoseOfWholeFramesAndHalfAFrameBeyond) {
+    MovingObject object = driving(1, carLook(), {2, 3}, 0, 25, 3);
+    object.first_frame = 10;
+    object.poses[2].direction = {0, 1};
+    object.poses[2].speed = 5;
+    ObjectPose pose;
+    ASSERT_TRUE(poseAt(object, 10.25, pose));
+    EXPECT_NEAR(pose.position.x, 2.25, 1e-12);
+    EXPECT_NEAR(pose.position.y, 3, 1e-12);
+    ASSERT_TRUE(poseAt(object, 11.5, pose));
+    EXPECT_NEAR(pose.direction.x, std::sqrt(0.5), 1e-12) << "a unit vector half way";
+    EXPECT_NEAR(pose.speed, 15, 1e-12);
+    ASSERT_TRUE(poseAt(object, 9.5, pose));
+    EXPECT_NEAR(pose.position.x, 2, 1e-12) << "as at the first";
+    ASSERT_TRUE(poseAt(object, 12.5, pose));
+    EXPECT_NEAR(pose.position.x, 4, 1e-12) << "as at the last";
+    EXPECT_FALSE(poseAt(object, 9.4, pose));
+    EXPECT_FALSE(poseAt(object, 12.6, pose));
+    EXPECT_FALSE(poseAt(MovingObject(), 0, pose));
+}
+
 }  // namespace eyrie::scene_truth_test

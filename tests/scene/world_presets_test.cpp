@@ -163,4 +163,33 @@ TEST(WorldPreset, twoPicturesASecondLieATenthOfTheWidthApart) {
     EXPECT_LT(fastest, 11) << "m: 80 km/h";
 }
 
+/// All objects of the first frame with their boxes, summed: a seed gives the same world on every machine, now and
+/// later.
+TEST(WorldPreset, aSeedGivesTheSameWorldEverywhere) {
+    struct Known {
+        const char* name;
+        std::size_t objects;
+        double x, y, length;  ///< px, of all boxes together
+    };
+    for (const Known& known : {Known{"road_flight", 32, 18199.41, 3789.63, 627.83},
+                               {"road_flight_night", 32, 18199.41, 3789.63, 627.83},
+                               {"estate", 5, 1900.13, 622.96, 68.77},
+                               {"city_high", 156, 142659.79, 87264.76, 2230.53},
+                               {"thermal", 26, 9272.05, 6186.45, 512.72},
+                               {"low_rate", 32, 9275.15, 8685.57, 662.33}}) {
+        const std::vector<StandingThing> nothing;
+        const auto objects = SceneTruth(world(known.name), nothing).objectsOnOpenGround(0);
+        EXPECT_EQ(objects.size(), known.objects) << known.name;
+        cv::Point2d places(0, 0);
+        double lengths = 0;
+        for (const SceneObject& object : objects) {
+            places += object.box.centre;
+            lengths += object.box.length;
+        }
+        EXPECT_NEAR(places.x, known.x, 0.02) << known.name;
+        EXPECT_NEAR(places.y, known.y, 0.02) << known.name;
+        EXPECT_NEAR(lengths, known.length, 0.02) << known.name;
+    }
+}
+
 }  // namespace eyrie::world_presets_test

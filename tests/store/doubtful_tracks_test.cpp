@@ -1,6 +1,13 @@
 #include "store/runs/doubtful_tracks.h"
 
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sqlite3.h>
+
+#include <functional>
+#include <string>
+#include <vector>
 
 #include "store/runs/result_writer.h"
 #include "store/samples.h"
@@ -11,6 +18,25 @@ namespace eyrie::doubtful_tracks_test {
 namespace {
 
 using test::twoTracks;
+
+int keepStatement(unsigned, void* texts, void* statement, void*) {
+    static_cast<std::vector<std::string>*>(texts)->emplace_back(sqlite3_sql(static_cast<sqlite3_stmt*>(statement)));
+    return 0;
+}
+
+/// How SQLite finds the rows that `reading` reads: a step of its plan a line.
+std::string planOf(SQLite::Database& database, const std::function<void()>& reading) {
+    std::vector<std::string> texts;
+    sqlite3_trace_v2(database.getHandle(), SQLITE_TRACE_STMT, keepStatement, &texts);
+    reading();
+    sqlite3_trace_v2(database.getHandle(), 0, nullptr, nullptr);
+    std::string plan;
+    for (const std::string& text : texts) {
+        SQLite::Statement steps(database, "EXPLAIN QUERY PLAN " + text);
+        while (steps.executeStep()) plan += steps.getColumn(3).getString() + "\n";
+    }
+    return plan;
+}
 
 /// A run whose finishing kept track 1 in frame 5 and left out track 9, in frames 4 and 5, only for its score.
 class DoubtfulTracksTest : public testing::Test {
@@ -94,6 +120,44 @@ TEST_F(DoubtfulTracksTest, TellWhatSpokeForThemAndAgainst) {
     EXPECT_EQ(read->flow_ratio, 0.75);
     EXPECT_EQ(read->alignment, -0.25);
     EXPECT_EQ(read->score, 0.25);
+}
+
+// A run over hours leaves out thousands of tracks: who selects one must not wait for the rows of all.
+TEST_F(DoubtfulTracksTest, OneIsFoundWithoutReadingTheOthers) {
+    finish();
+    const DoubtfulTracks tracks = store_.doubtful();
+    const std::string states = planOf(project_.database(), [&] { tracks.statesOf(run_, 9); });
+    EXPECT_THAT(states, testing::HasSubstr("(run_id=? AND frame=? AND track_id=?)"));
+    EXPECT_THAT(states, testing::HasSubstr("doubtful_state_of_track (run_id=? AND track_id=?)"));
+    EXPECT_THAT(planOf(project_.database(), [&] { tracks.evidence(run_, 9); }),
+                testing::HasSubstr("(run_id=? AND track_id=?)"));
+    EXPECT_THAT(planOf(project_.database(), [&] { store_.trackStates(run_, 9); }),
+                testing::HasSubstr("track_state USING PRIMARY KEY (run_id=? AND frame=? AND track_id=?)"));
+    EXPECT_THAT(planOf(project_.database(), [&] { store_.lastTrackId(run_); }),
+                testing::HasSubstr("doubtful_state_of_track"));
+}
+
+// The states of one are in the order of frames, and those of others in the same frames are not among them.
+TEST_F(DoubtfulTracksTest, StatesOfOneAreItsOwnInTheOrderOfFrames) {
+    TracksOfRun tracks;
+    tracks.doubtful = [&](const TracksOfRun::StateVisitor& visitor) {
+        for (const FrameIndex frame : {4, 5, 7}) {
+            for (const TrackId id : {8, 9, 10}) {
+                TrackState state = doubtful_;
+                state.id = id;
+                if (id != 9 || frame != 5) visitor(frame, state);
+            }
+        }
+    };
+    store_.replaceTracks(run_, tracks);
+    const std::vector<TrackFrame> states = store_.doubtful().statesOf(run_, 9);
+    ASSERT_EQ(states.size(), 2U);
+    EXPECT_EQ(states[0].frame, 4);
+    EXPECT_EQ(states[1].frame, 7);
+    EXPECT_EQ(states[0].state.id, 9);
+    EXPECT_EQ(states[1].state.id, 9);
+    EXPECT_EQ(store_.doubtful().statesOf(run_, 8).size(), 3U);
+    EXPECT_TRUE(store_.doubtful().statesOf(run_, 11).empty());
 }
 
 TEST_F(DoubtfulTracksTest, GoWithTheTracksThatAreReplaced) {

@@ -1,9 +1,12 @@
 #include "store/runs/run_state_store.h"
 
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sqlite3.h>
 
 #include "core/error.h"
+#include "store/journal/step_journal.h"
 #include "store/runs/result_writer.h"
 #include "store/samples.h"
 #include "support/run_rows.h"
@@ -36,6 +39,13 @@ std::vector<std::string> rowsOf(const std::filesystem::path& path, int run) {
 }
 
 }  // namespace
+
+TEST_F(RunStates, WhatIsTooLargeForARowIsKnownBeforeItIsWritten) {
+    ProjectFile project = ProjectFile::openOrCreate(path);
+    const int longest_row = sqlite3_limit(project.database().getHandle(), SQLITE_LIMIT_LENGTH, -1);
+    EXPECT_LT(kLargestRunState, static_cast<std::size_t>(longest_row));
+    EXPECT_LT(kLargestStep, static_cast<std::size_t>(longest_row));
+}
 
 TEST_F(RunStates, KeepTheNewestAlone) {
     const int run = write(3, RunState::stopped);

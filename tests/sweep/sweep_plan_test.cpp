@@ -100,8 +100,8 @@ TEST(SweepPlan, ShardsDoEachPointOnce) {
         }
         EXPECT_EQ(joined, order) << count;
     }
-    EXPECT_THAT(refusal([&] { shardOf(order, 0, 3); }), HasSubstr("expected I/N"));
-    EXPECT_THAT(refusal([&] { shardOf(order, 4, 3); }), HasSubstr("expected I/N"));
+    EXPECT_THAT(refusal([&] { shardOf(order, 0, 3); }), HasSubstr("expected PART/PARTS"));
+    EXPECT_THAT(refusal([&] { shardOf(order, 4, 3); }), HasSubstr("expected PART/PARTS"));
 }
 
 TEST(SweepPlan, RefusesPlansThatCannotBeCarriedOut) {

@@ -2,8 +2,11 @@
 
 #include <QColor>
 
+#include "canvas/drawing/mark_colours.h"
+
 namespace eyrie::ui {
 
+/// A set of colours for overlays.
 enum class PaletteKind {
     thesis,       ///< the thesis' colours, but for corners
     colour_blind  ///< told apart with any colour vision (after Okabe and Ito's set)
@@ -29,7 +32,7 @@ struct OverlayColours {
 };
 
 inline OverlayColours overlayColours(PaletteKind kind) {
-    const QColor edge(12, 12, 14);
+    const QColor edge = edgeColour();
     if (kind == PaletteKind::colour_blind)
         return {.stationary_corner = QColor(213, 94, 0),
                 .motion_vector = QColor(240, 228, 66),

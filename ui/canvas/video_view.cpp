@@ -3,29 +3,19 @@
 #include <QContextMenuEvent>
 #include <QMouseEvent>
 #include <QNativeGestureEvent>
-#include <QPainter>
 #include <QWheelEvent>
 #include <cmath>
 
 #include "canvas/canvas_tool.h"
-#include "canvas/drawing/caption_placer.h"
-#include "canvas/drawing/edged_painter.h"
-#include "canvas/drawing/tool_hint.h"
 #include "canvas/layers/overlay_table.h"
 #include "canvas/layers/track_layer.h"
 
 namespace eyrie::ui {
 
 namespace {
-const QColor kGround(34, 36, 40);          ///< around the picture, in both themes: overlays keep their contrast
-const QColor kMissingPicture(58, 61, 66);  ///< where a picture should be and is not
-const QColor kBadgeGround(255, 200, 40);
-const QColor kBadgeText(30, 24, 0);
 constexpr double kWheelStep = 1.25;
 constexpr double kDragThreshold = 4;
 constexpr double kHitMargin = 4;  ///< logical px around a box that still count as hit
-constexpr double kInspectedWidth = 2.2;
-constexpr double kHintRoom = 80;  ///< logical px at the lower edge that what a tool wants may cover
 }  // namespace
 
 VideoView::VideoView(OverlaySettings& settings, QWidget* parent) : QWidget(parent), settings_(settings) {
@@ -35,7 +25,7 @@ VideoView::VideoView(OverlaySettings& settings, QWidget* parent) : QWidget(paren
     setAttribute(Qt::WA_OpaquePaintEvent);
     setAccessibleName(tr("Video"));
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
-    connect(&settings_, &OverlaySettings::changed, this, qOverload<>(&QWidget::update));
+    connect(&settings_, &OverlaySettings::changed, this, &VideoView::pictureWasChanged);
 }
 
 VideoView::~VideoView() = default;
@@ -44,7 +34,7 @@ void VideoView::setFrame(ViewFrame frame) {
     if (frame.index != frame_.index) pointer_.forgetPlace();
     frame_ = std::move(frame);
     adoptSize();
-    update();
+    pictureWasChanged();
     emit frameGiven(frame_.index);
 }
 
@@ -66,25 +56,25 @@ void VideoView::adoptSize() {
 void VideoView::setSelectedTrack(std::optional<TrackId> track) {
     if (selected_track_ == track) return;
     selected_track_ = track;
-    update();
+    pictureWasChanged();
 }
 
 void VideoView::setStacks(FrameIndex frame, std::vector<StackMark> stacks) {
     if (frame != frame_.index) return;
     frame_.stacks = std::move(stacks);
-    update();
+    pictureWasChanged();
 }
 
 void VideoView::setZones(FrameIndex frame, std::vector<ZoneMark> zones) {
     if (frame != frame_.index || (zones.empty() && frame_.zones.empty())) return;
     frame_.zones = std::move(zones);
-    update();
+    pictureWasChanged();
 }
 
 void VideoView::setNorth(FrameIndex frame, std::optional<double> north_deg) {
     if (frame != frame_.index || north_deg == frame_.north_deg) return;
     frame_.north_deg = north_deg;
-    update();
+    pictureWasChanged();
 }
 
 void VideoView::setVerdicts(FrameIndex frame, bool evaluated, std::vector<VerdictMark> verdicts,
@@ -93,37 +83,37 @@ void VideoView::setVerdicts(FrameIndex frame, bool evaluated, std::vector<Verdic
     frame_.evaluated = evaluated;
     frame_.verdicts = std::move(verdicts);
     frame_.ground_truth = std::move(ground_truth);
-    update();
+    pictureWasChanged();
 }
 
 void VideoView::setInspectedArea(std::optional<OrientedBox> area) {
     if (!area && !inspected_area_) return;
     inspected_area_ = area;
-    update();
+    pictureWasChanged();
 }
 
 void VideoView::setPlaceMark(std::optional<PlaceMark> mark) {
     if (!mark && !place_mark_) return;
     place_mark_ = std::move(mark);
-    update();
+    pictureWasChanged();
 }
 
 void VideoView::setBadge(const QString& text) {
     if (badge_ == text) return;
     badge_ = text;
-    update();
+    pictureWasChanged();
 }
 
 void VideoView::setBadgeOnRight(bool on_right) {
     badge_on_right_ = on_right;
-    update();
+    pictureWasChanged();
 }
 
 void VideoView::setTool(CanvasTool* tool) {
     tool_ = tool;
     hideKeyPointer();
     updateCursorShape();
-    update();
+    pictureWasChanged();
 }
 
 bool VideoView::toolTakes(bool (CanvasTool::*handler)(const QMouseEvent&, const CanvasPlace&),
@@ -246,6 +236,11 @@ void VideoView::setGround(const std::optional<QTransform>& ground_from_image) {
     transformWasChanged();
 }
 
+void VideoView::pictureWasChanged() {
+    picture_changed_ = true;
+    update();
+}
+
 QPointF VideoView::anchor() const {
     if (const auto at = keyPointer()) return *at;
     const QPointF cursor = mapFromGlobal(QPointF(QCursor::pos()));
@@ -255,126 +250,18 @@ QPointF VideoView::anchor() const {
 
 void VideoView::transformWasChanged() {
     pointer_.forgetPlace();
-    update();
+    pictureWasChanged();
     emit transformChanged();
-}
-
-QImage VideoView::picture() const {
-    QImage image(size() * devicePixelRatioF(), QImage::Format_RGB32);
-    image.setDevicePixelRatio(devicePixelRatioF());
-    QPainter painter(&image);
-    painter.setFont(font());
-    paint(painter);
-    return image;
-}
-
-void VideoView::paintEvent(QPaintEvent*) {
-    // A window moved to a screen of another density repaints without being resized.
-    if (transform_.devicePixelRatio() != devicePixelRatioF()) transform_.setView(size(), devicePixelRatioF());
-    QPainter painter(this);
-    paint(painter);
-}
-
-void VideoView::paint(QPainter& painter) const {
-    painter.fillRect(rect(), kGround);
-    paintImage(painter);
-    painter.setRenderHint(QPainter::Antialiasing);
-    QFont label_font = font();
-    label_font.setPointSizeF(std::max(7.0, font().pointSizeF() * 0.85));
-    label_font.setBold(true);
-    painter.setFont(label_font);
-    static const FrameResult nothing_found;
-    const QRectF view = QRectF(rect()).adjusted(-8, -8, 8, 8);
-    CaptionPlacer captions(view);
-    const FrameResult& result = frame_.result ? *frame_.result : nothing_found;
-    const OverlayScene scene{frame_, result, transform_, settings_.style(), selected_track_, view, captions};
-    for (const auto& [kind, layer] : layers_)
-        if (settings_.isDrawn(kind) && (frame_.result || !layer->needsResult())) layer->paint(painter, scene);
-    // Marks of the review are in the way of who draws.
-    const bool marked = tool_ == nullptr && !settings_.hidden();
-    if (frame_.result && marked) paintInspectedArea(painter);
-    if (marked) paintPlaceMark(painter);
-    paintBadge(painter);
-    if (tool_ != nullptr) paintTool(painter);
-}
-
-void VideoView::paintTool(QPainter& painter) const {
-    const CanvasPlace shown = place();
-    tool_->paint(painter, shown);
-    if (!tool_->takesPlaces()) return;
-    pointer_.paint(painter);
-    const QString wanted = tool_->hint(shown);
-    // Where one works the hint would be in the way.
-    const auto edge = anchor().y() > height() - kHintRoom ? HintEdge::upper : HintEdge::lower;
-    paintToolHint(painter, shown.view, edge,
-                  wanted.isEmpty() ? pointer_.hint() : wanted + QLatin1Char('\n') + pointer_.hint());
-}
-
-void VideoView::paintInspectedArea(QPainter& painter) const {
-    if (!inspected_area_) return;
-    QVector<QLineF> lines;
-    appendBox(lines, *inspected_area_, transform_, rect());
-    appendHeading(lines, *inspected_area_, transform_, rect());
-    drawEdgedLines(painter, lines, {settings_.style().colours.stack, settings_.style().colours.edge, kInspectedWidth});
-}
-
-void VideoView::paintPlaceMark(QPainter& painter) const {
-    if (!place_mark_) return;
-    const OverlayColours& colours = settings_.style().colours;
-    QVector<QLineF> lines;
-    appendBox(lines, place_mark_->area, transform_, rect());
-    drawEdgedLines(painter, lines, {Qt::white, colours.edge, kInspectedWidth, Qt::DotLine});
-    const double size = std::clamp(transform_.scale(), 2.0, 7.0);
-    for (const PlaceMark::Dot& dot : place_mark_->dots)
-        drawEdgedDots(painter, {transform_.viewFromImage(dot.place)}, size, dot.colour, colours.edge);
-}
-
-void VideoView::paintBadge(QPainter& painter) const {
-    if (badge_.isEmpty()) return;
-    const QRectF text = painter.fontMetrics().boundingRect(badge_);
-    QRectF plate(10, 10, text.width() + 20, text.height() + 10);
-    if (badge_on_right_) plate.moveRight(width() - 10);
-    painter.setPen(Qt::NoPen);
-    painter.setBrush(kBadgeGround);
-    painter.drawRoundedRect(plate, 4, 4);
-    painter.setPen(kBadgeText);
-    painter.drawText(plate, Qt::AlignCenter, badge_);
-}
-
-void VideoView::paintImage(QPainter& painter) const {
-    if (frame_.image.isNull()) {
-        if (transform_.imageSize().isEmpty()) return;
-        painter.setTransform(transform_.drawing(), true);
-        painter.fillRect(QRectF(QPointF(-0.5, -0.5), QSizeF(transform_.imageSize())), kMissingPicture);
-        painter.resetTransform();
-        return;
-    }
-    if (transform_.onGround()) {
-        painter.setRenderHint(QPainter::SmoothPixmapTransform, !transform_.sharp());
-        painter.setTransform(transform_.drawing(), true);
-        painter.drawImage(QPointF(-0.5, -0.5), frame_.image);
-        painter.resetTransform();
-        return;
-    }
-    const QRectF visible = transform_.visibleImage();
-    if (visible.isEmpty()) return;
-    // Whole pixels around what is seen, so that the edges of the view show parts of pixels, not shifted ones.
-    const int left = static_cast<int>(std::floor(visible.left() + 0.5));
-    const int top = static_cast<int>(std::floor(visible.top() + 0.5));
-    const int right = std::min(frame_.image.width(), static_cast<int>(std::ceil(visible.right() + 0.5)));
-    const int bottom = std::min(frame_.image.height(), static_cast<int>(std::ceil(visible.bottom() + 0.5)));
-    const QRectF source(left, top, right - left, bottom - top);
-    const QRectF target(transform_.unturnedFromImage(source.topLeft() - QPointF(0.5, 0.5)),
-                        source.size() * transform_.scale());
-    painter.setRenderHint(QPainter::SmoothPixmapTransform, !transform_.sharp());
-    painter.setTransform(transform_.turn(), true);
-    painter.drawImage(target, frame_.image, source);
-    painter.resetTransform();
 }
 
 void VideoView::resizeEvent(QResizeEvent*) {
     transform_.setView(size(), devicePixelRatioF());
     transformWasChanged();
+}
+
+void VideoView::changeEvent(QEvent* event) {
+    QWidget::changeEvent(event);
+    if (event->type() == QEvent::FontChange) pictureWasChanged();  // captions are written in it
 }
 
 void VideoView::wheelEvent(QWheelEvent* event) {

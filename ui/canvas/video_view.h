@@ -18,7 +18,8 @@ class CanvasTool;
 struct CanvasPlace;
 
 /// The canvas: one video frame with its overlays. The wheel zooms to the cursor, dragging pans; pixels are smooth below
-/// 400 % and sharp squares from there on. Shows what it is given and asks nobody.
+/// 400 % and sharp squares from there on. Shows what it is given and asks nobody. Tools call update() when what they
+/// draw is another; what lies under it the view itself paints anew when that changed.
 class VideoView : public QWidget {
     Q_OBJECT
 
@@ -96,6 +97,7 @@ class VideoView : public QWidget {
     bool event(QEvent* event) override;
     void paintEvent(QPaintEvent* event) override;
     void resizeEvent(QResizeEvent* event) override;
+    void changeEvent(QEvent* event) override;
     void wheelEvent(QWheelEvent* event) override;
     void mousePressEvent(QMouseEvent* event) override;
     void mouseMoveEvent(QMouseEvent* event) override;
@@ -108,6 +110,10 @@ class VideoView : public QWidget {
 
  private:
     void paint(QPainter& painter) const;
+    void paintPicture(QPainter& painter) const;
+    void paintWithTool(QPainter& painter);
+    void prepareToDraw(QPainter& painter) const;
+    QImage emptyPicture() const;
     void paintImage(QPainter& painter) const;
     void paintInspectedArea(QPainter& painter) const;
     void paintPlaceMark(QPainter& painter) const;
@@ -115,6 +121,7 @@ class VideoView : public QWidget {
     void paintTool(QPainter& painter) const;
     void adoptSize();
     void transformWasChanged();
+    void pictureWasChanged();
     void reportCursor(QPointF view_point);
     CanvasPlace place(bool by_keys = false) const;
     QPointF anchor() const;
@@ -142,6 +149,8 @@ class VideoView : public QWidget {
     bool space_held_ = false;
     bool space_panned_ = false;
     CanvasTool* tool_ = nullptr;
+    bool picture_changed_ = true;  ///< since it was painted: what lies under a tool
+    QImage under_tool_;            ///< kept from the second time on that it is painted the same; null: not kept
     KeyPointer pointer_;
 };
 

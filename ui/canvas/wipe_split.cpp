@@ -3,6 +3,8 @@
 #include <QMouseEvent>
 #include <QPainter>
 
+#include "canvas/drawing/mark_colours.h"
+
 namespace eyrie::ui {
 
 namespace {
@@ -19,7 +21,7 @@ class WipeSplit::Handle : public QWidget {
     void paintEvent(QPaintEvent*) override {
         QPainter painter(this);
         painter.fillRect(QRect(width() / 2 - 1, 0, 3, height()), QColor(0, 0, 0));
-        painter.fillRect(QRect(width() / 2, 0, 1, height()), QColor(255, 200, 40));
+        painter.fillRect(QRect(width() / 2, 0, 1, height()), toolColour());
     }
     void mouseMoveEvent(QMouseEvent* event) override {
         split_.setBorder(static_cast<double>(mapToParent(event->pos()).x()) / std::max(1, split_.width()));

@@ -55,8 +55,8 @@ std::optional<ObjectId> IdentityCommands::otherSelected() const {
 void IdentityCommands::offer(QAction* action, const std::function<std::optional<LabelEditor::Plan>()>& make) {
     const LabelSession& labels = parts_.labels;
     const Planned before = std::exchange(planned_, {});
-    const FrameIndex frame = parts_.around.session.shownFrame();
-    if (before.action == action && before.frame == frame && before.selection == labels.selection() && before.plan &&
+    // Whatever frame is shown by now: one looks through them before one confirms.
+    if (before.action == action && before.selection == labels.selection() && before.plan &&
         before.plan->version == labels.version()) {
         parts_.around.messages.dismissTopic(kLabelTopic);
         parts_.editor.carryOut(before.plan);
@@ -67,7 +67,7 @@ void IdentityCommands::offer(QAction* action, const std::function<std::optional<
     const QString key = action->shortcut().toString(QKeySequence::NativeText);
     const QString text = tr("%1 → %2. Press %3 again to confirm, Esc to cancel.")
                              .arg(QString::fromStdString(plan->edit.name), plan->text, key);
-    planned_ = {action, frame, labels.selection(), std::move(plan)};
+    planned_ = {action, labels.selection(), std::move(plan)};
     emit shownEditChanged();
     parts_.around.messages.showTopic(kLabelTopic, MessageKind::info, text, tr("Confirm"),
                                      [action] { action->trigger(); });

@@ -33,7 +33,6 @@ class IdentityCommands : public QObject {
     /// What was shown and waits for its key.
     struct Planned {
         const QAction* action = nullptr;
-        FrameIndex frame = 0;
         std::set<ObjectId> selection;
         std::optional<LabelEditor::Plan> plan;
     };

@@ -22,11 +22,12 @@ LabelActions::LabelActions(KeyBindings& keys, QWidget& window, QWidget& canvas)
     try_to_write = add(tr("Try again to label in this window"), {});
 
     section(tr("Box"));
-    draw = addToggle(tr("&Draw: click rear, then front (Shift: then width)"), {QKeySequence(Qt::Key_B)}, false);
+    draw =
+        addToggle(tr("&Draw: click the rear, then the front (Shift: then a side)"), {QKeySequence(Qt::Key_B)}, false);
     draw->setIcon(QIcon::fromTheme(QStringLiteral("draw-rectangle")));
     draw->setIconText(tr("Draw"));
     redraw = add(tr("Redraw the selected object's box in this frame"), {QKeySequence(tr("Ctrl+B"))});
-    region = addToggle(tr("Draw an ignore region: click its corners, double-click to end"),
+    region = addToggle(tr("Draw an ignore region: click its corners, double-click to finish"),
                        {QKeySequence(tr("Ctrl+G"))}, false);
     delete_region = add(tr("Delete the ignore region under the cursor"), {QKeySequence(tr("Ctrl+Shift+G"))});
     region_begins = add(tr("Begin the ignore region under the cursor here"), {QKeySequence(tr("Ctrl+["))});
@@ -91,9 +92,10 @@ LabelActions::LabelActions(KeyBindings& keys, QWidget& window, QWidget& canvas)
     proposals->setIconText(tr("Proposals"));
     proposals->setIcon(QIcon::fromTheme(QStringLiteral("tools-wizard")));
     next_proposal = add(tr("Next proposal"), {QKeySequence(tr("Shift+P"))});
-    accept =
-        add(tr("Accept the selected proposals"), {QKeySequence(Qt::Key_Return), QKeySequence(Qt::Key_Enter)}, true);
-    reject = add(tr("Reject the selected proposals"), {QKeySequence(Qt::Key_Backspace)}, true);
+    accept = add(tr("Accept the selected proposals, or the one under the cursor"),
+                 {QKeySequence(Qt::Key_Return), QKeySequence(Qt::Key_Enter)}, true);
+    reject =
+        add(tr("Reject the selected proposals, or the one under the cursor"), {QKeySequence(Qt::Key_Backspace)}, true);
     accept_all = add(tr("Accept all proposals of this frame"), {QKeySequence(tr("Shift+Return"))}, true);
     accept_range =
         add(tr("Accept all proposals in the toolbar's frame range"), {QKeySequence(tr("Ctrl+Return"))}, true);

@@ -8,6 +8,7 @@
 
 #include "annotation/edits/object_pieces.h"
 #include "canvas/video_view.h"
+#include "label/canvas/label_layer.h"
 #include "label/canvas/label_tool.h"
 #include "label/computing/label_fitting.h"
 #include "label/computing/label_proposals.h"
@@ -25,7 +26,11 @@ namespace eyrie::ui {
 
 namespace {
 constexpr double kDegree = std::numbers::pi / 180;
+
+QString acceptedText(std::size_t tracks) {
+    return tracks == 1 ? LabelCommands::tr("Accepted 1 track.") : LabelCommands::tr("Accepted %1 tracks.").arg(tracks);
 }
+}  // namespace
 
 LabelCommands::LabelCommands(const LabelParts& parts, IdentityCommands& identity, QObject* parent)
     : QObject(parent), parts_(parts), identity_(identity) {
@@ -217,10 +222,10 @@ void LabelCommands::bindProposals() {
                          }}});
     bindCommands(this, {
                            {actions.next_proposal, [this] { selectNextProposal(); }},
-                           {actions.accept, [this] { acceptSelected(); }},
+                           {actions.accept, [this] { acceptMeant(); }},
                            {actions.accept_all, [this] { acceptHere(); }},
                            {actions.accept_range, [this] { acceptMarkedRange(); }},
-                           {actions.reject, [this] { rejectSelected(); }},
+                           {actions.reject, [this] { rejectMeant(); }},
                            {actions.offer_again, [this] { parts_.proposals.offerAgain(); }},
                            {actions.proposal_tolerance, [this] { chooseTolerance(); }},
                        });
@@ -247,13 +252,24 @@ void LabelCommands::selectNextProposal() {
     selectProposal(next != nullptr ? next : parts_.proposals.next(frame));
 }
 
-void LabelCommands::acceptSelected() {
+std::vector<TrackId> LabelCommands::meantProposals() {
+    if (parts_.proposals.selected()) return parts_.proposals.selection();
+    const auto place = parts_.tool.cursorInImage();
+    const LabelMark* hit = place ? proposalAt(parts_.tool.scene(), *place, 0) : nullptr;
+    if (hit != nullptr) return {hit->id};
+    parts_.tell(tr("Point at a proposal, or go to one with Shift+P."));
+    return {};
+}
+
+void LabelCommands::acceptMeant() {
     LabelProposals& proposals = parts_.proposals;
-    if (!proposals.selected()) return;
-    const auto objects = proposals.accept(proposals.selection());
+    const bool chosen = proposals.selected().has_value();
+    const auto objects = proposals.accept(meantProposals());
     if (objects.empty()) return;
-    if (objects.size() > 1) parts_.tell(tr("Accepted %1 tracks.").arg(objects.size()));
-    if (const Proposal* next = proposals.next(parts_.around.session.currentFrame()))
+    if (objects.size() > 1) parts_.tell(acceptedText(objects.size()));
+    // Who points goes on pointing; nothing is chosen for them.
+    const Proposal* next = chosen ? proposals.next(parts_.around.session.currentFrame()) : nullptr;
+    if (next != nullptr)
         selectProposal(next);
     else
         parts_.labels.select(objects.front());
@@ -264,19 +280,21 @@ void LabelCommands::acceptHere() {
     for (const Proposal* proposal : parts_.proposals.pendingIn(parts_.around.session.currentFrame()))
         tracks.push_back(proposal->track);
     const auto objects = parts_.proposals.accept(tracks);
-    if (!objects.empty()) parts_.tell(tr("Accepted %1 tracks.").arg(objects.size()));
+    if (tracks.empty()) parts_.tell(tr("No proposal is left in this frame."));
+    if (!objects.empty()) parts_.tell(acceptedText(objects.size()));
 }
 
 void LabelCommands::acceptMarkedRange() {
+    if (!parts_.labels.mayEdit()) return;  // which says why
     const FrameRange range = markedRange();
     const auto objects = parts_.proposals.acceptRange(range.first, range.last);
-    parts_.tell(objects.empty() ? tr("No proposal is left there.") : tr("Accepted %1 tracks.").arg(objects.size()));
+    parts_.tell(objects.empty() ? tr("No proposal is left there.") : acceptedText(objects.size()));
 }
 
-void LabelCommands::rejectSelected() {
-    if (!parts_.proposals.selected()) return;
-    parts_.proposals.reject(parts_.proposals.selection());
-    selectProposal(parts_.proposals.next(parts_.around.session.currentFrame()));
+void LabelCommands::rejectMeant() {
+    const bool chosen = parts_.proposals.selected().has_value();
+    parts_.proposals.reject(meantProposals());
+    if (chosen) selectProposal(parts_.proposals.next(parts_.around.session.currentFrame()));
 }
 
 void LabelCommands::chooseTolerance() {

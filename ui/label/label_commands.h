@@ -3,6 +3,7 @@
 #include <QObject>
 #include <functional>
 #include <opencv2/core/types.hpp>
+#include <vector>
 
 #include "annotation/review/proposals.h"
 #include "label/label_parts.h"
@@ -41,10 +42,12 @@ class LabelCommands : public QObject {
     void escape();
     void selectProposal(const Proposal* proposal);
     void selectNextProposal();
-    void acceptSelected();
+    /// The selected proposals; where none is, the one under the cursor, or a word that asks for one.
+    std::vector<TrackId> meantProposals();
+    void acceptMeant();
     void acceptHere();
     void acceptMarkedRange();
-    void rejectSelected();
+    void rejectMeant();
     void chooseTolerance();
     /// The range of frames set above the canvas; the whole video where none is.
     FrameRange markedRange() const;

@@ -171,16 +171,17 @@ ObjectDetails objectDetails(const LabelSession& labels, const LabelEditor& edito
     if (const auto box = editor.shownBox()) {
         double degrees = std::fmod(box->heading * 180 / std::numbers::pi, 360);
         if (degrees < 0) degrees += 360;
-        details.box =
-            tr("%1 · %2, %3 px · %4 × %5 · %6°")
-                .arg(sourceText(shown, shown.exists(), keyframeAt(object, frame)))
+        QString figures =
+            tr("%1, %2 px · %3 × %4 · %5°")
                 .arg(box->centre.x, 0, 'f', 1)
                 .arg(box->centre.y, 0, 'f', 1)
                 .arg(lengthText(box->length, scale.at(box->centre)), lengthText(box->width, scale.at(box->centre)))
                 .arg(degrees, 0, 'f', 1);
-        // Lines break between the parts only.
-        details.box.replace(QLatin1Char(' '), QChar(QChar::Nbsp));
-        details.box.replace(QStringLiteral("\u00a0·\u00a0"), QStringLiteral("\u00a0· "));
+        // Lines break between figures only. What is said in words may break anywhere: in one piece it would be wider
+        // than the dock and push the picture aside.
+        figures.replace(QLatin1Char(' '), QChar(QChar::Nbsp));
+        figures.replace(QStringLiteral("\u00a0·\u00a0"), QStringLiteral("\u00a0· "));
+        details.box = tr("%1\u00a0· %2").arg(sourceText(shown, shown.exists(), keyframeAt(object, frame)), figures);
     }
     details.object_class = classText(object.object_class);
     ObjectColours colours(labels.annotations());

@@ -168,7 +168,7 @@ const std::vector<AttentionItem>& LabelSession::attention() const {
 // ---- changing -------------------------------------------------------------------------------------------------------
 
 bool LabelSession::mayEdit() {
-    if (store_ && store_->readOnly()) emit notice(QString::fromStdString(store_->readOnlyReason()));
+    if (store_ && store_->readOnly()) emit refused();
     return canEdit();
 }
 
@@ -238,7 +238,7 @@ void LabelSession::tryToWrite() {
         const bool may = store_->tryToWrite();
         wasChanged();
         emit opened();
-        emit notice(may ? tr("You can label in this window now.") : QString::fromStdString(store_->readOnlyReason()));
+        emit notice(may ? tr("You can label in this window now.") : tr("The other window still labels this project."));
     } catch (const std::exception& error) {
         emit problem(QString::fromUtf8(error.what()));
     }

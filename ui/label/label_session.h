@@ -91,6 +91,8 @@ class LabelSession : public QObject {
     void drawnClassChanged();
     void problem(const QString& message);
     void notice(const QString& message);
+    /// Labels were to be changed that are read-only here.
+    void refused();
 
  private:
     struct Opened;

@@ -27,6 +27,7 @@
 #include "label/object_pictures.h"
 #include "widgets/display_text.h"
 #include "widgets/empty_state.h"
+#include "widgets/layout/scrolled.h"
 #include "widgets/message_bar.h"
 #include "widgets/wiring.h"
 #include "workspace/dock_registry.h"
@@ -79,7 +80,7 @@ void LabelWorkspace::buildDocks() {
     objects_ = new ObjectsPanel(model_);
     inspector_ = new ObjectInspector;
     around_.docks.add(DockId::objects, tr("Objects"), objects_);
-    around_.docks.add(DockId::object, tr("Object"), inspector_);
+    around_.docks.add(DockId::object, tr("Object"), scrolled(inspector_));
 }
 
 void LabelWorkspace::buildToolBar() {
@@ -119,6 +120,7 @@ void LabelWorkspace::setActive(bool active) {
     actions_->setActive(active);
     followObject();
     labels_->setWanted(active || labels_->isOpen());
+    tellRight();
     labelsChanged();
     around_.canvas.setFocus();
 }
@@ -136,6 +138,7 @@ void LabelWorkspace::wireLabels() {
     connect(labels_, &LabelSession::problem, &around_.session, &ProjectSession::problem);
     connect(labels_, &LabelSession::notice, this, [this](const QString& text) { parts().tell(text); });
     connect(labels_, &LabelSession::opened, this, &LabelWorkspace::labelsOpened);
+    connect(labels_, &LabelSession::refused, this, &LabelWorkspace::tellRight);
     connect(labels_, &LabelSession::selectionChanged, this, &LabelWorkspace::selectionChanged);
     whenChanged(around_.session, this,
                 {{SessionChange::picture, [this] { pictureChanged(); }},
@@ -148,12 +151,18 @@ void LabelWorkspace::wireLabels() {
         bindSwitches(this, {{action, [this] { followObject(); }}});
 }
 
-void LabelWorkspace::labelsOpened() {
-    around_.messages.dismissTopic(kRightTopic);
-    if (labels_->readOnly())
+void LabelWorkspace::tellRight() {
+    if (!active_ || !labels_->isOpen() || !labels_->readOnly())
+        around_.messages.dismissTopic(kRightTopic);
+    else
         around_.messages.showTopic(kRightTopic, MessageKind::warning, asSentence(labels_->store()->readOnlyReason()),
                                    tr("Try again"), [this] { labels_->tryToWrite(); });
-    else if (active_ && !around_.session.currentRun() && labels_->annotations().objects.empty())
+}
+
+void LabelWorkspace::labelsOpened() {
+    tellRight();
+    if (labels_->readOnly()) return enableActions();
+    if (active_ && !around_.session.currentRun() && labels_->annotations().objects.empty())
         around_.messages.showTopic(
             kNoRunTopic, MessageKind::info,
             tr("This video has no run yet: boxes are interpolated in the image. After a run they follow the ground, "
@@ -240,9 +249,9 @@ void LabelWorkspace::buildWork() {
                                            if (advance.done > 0) around_.session.goToFrame(advance.frame);
                                        },
                                    .show_end =
-                                       [this](FrameIndex frame, const QString& reason) {
+                                       [this](FrameIndex frame, const QString& told) {
                                            around_.session.goToFrame(frame);
-                                           if (!reason.isEmpty()) parts().tell(tr("Tracking %1").arg(reason));
+                                           if (!told.isEmpty()) parts().tell(told);
                                        }},
                                   this);
 }
@@ -269,7 +278,7 @@ ObjectEdits LabelWorkspace::inspectorEdits() {
         .toggle_occluded = [this] { editor_->toggleOccluded(); },
         .toggle_outside = [this] { editor_->toggleOutside(); },
         .toggle_ignore = [this] { editor_->toggleIgnore(); },
-        .set_notes = [this](const QString& notes) { editor_->setNotes(notes); },
+        .set_notes = [this](int object, const QString& notes) { editor_->setNotes(object, notes); },
         .check = [this] { actions_->checked->trigger(); },
         .question = [this] { actions_->questionable->trigger(); },
         .join = [this](int other) { editor_->join(other, GapFilling::interpolate); },
@@ -335,7 +344,6 @@ void LabelWorkspace::showObject() {
 void LabelWorkspace::enableActions() {
     if (!active_) return;
     const bool any = labels_->selected().has_value();
-    const bool proposal = proposals_->selected().has_value();
     actions_->undo->setEnabled(labels_->canUndo());
     actions_->redo->setEnabled(labels_->canRedo());
     setTip(*actions_->undo, labels_->canUndo() ? tr("Undo: %1").arg(labels_->undoName()) : tr("Undo"));
@@ -356,13 +364,14 @@ void LabelWorkspace::enableActions() {
                             actions_->track_on,      actions_->track_back,
                             actions_->next_keyframe, actions_->previous_keyframe})
         action->setEnabled(any);
-    for (QAction* action : {actions_->accept, actions_->reject}) action->setEnabled(proposal);
-    for (QAction* action : {actions_->accept_all, actions_->accept_range, actions_->next_proposal})
+    for (QAction* action :
+         {actions_->accept, actions_->reject, actions_->accept_all, actions_->accept_range, actions_->next_proposal})
         action->setEnabled(proposals_->shown());
     actions_->offer_again->setEnabled(proposals_->rejectedCount() > 0);
     actions_->stop_tracking->setEnabled(tracking_->working() || fitting_->working());
     actions_->try_to_write->setEnabled(labels_->isOpen() && labels_->readOnly());
-    for (QAction* action : {actions_->draw, actions_->region}) action->setEnabled(labels_->isOpen());
+    for (QAction* action : {actions_->draw, actions_->region, actions_->import_labels, actions_->export_labels})
+        action->setEnabled(labels_->isOpen());
 }
 
 void LabelWorkspace::followObject() {

@@ -63,6 +63,8 @@ class LabelWorkspace : public QObject {
     void wireObjects();
     ObjectEdits inspectorEdits();
     void labelsOpened();
+    /// Says that labels are read-only here, and why, where they are.
+    void tellRight();
     void selectionChanged();
     void pictureChanged();
     void labelsChanged();

@@ -98,9 +98,10 @@ void ProjectSession::listsRead(const ProjectLists& lists) {
 }
 
 void ProjectSession::projectFailed(const fs::path&, const QString& message) {
-    project_opens_video_ = false;
+    const bool awaited = isAwaited();
+    if (awaited) project_opens_video_ = false;
     emit problem(message);
-    if (!project_open_) {
+    if (awaited && !project_open_) {
         project_.clear();
         emit changed(SessionChange::project);
         request();
@@ -120,8 +121,10 @@ void ProjectSession::saveProjectAs(const fs::path& target) {
     }
     if (project_open_)
         reader_.saveAs(target);
-    else if (media_ && video_)
+    else if (media_ && video_) {
+        awaitProject(false);
         reader_.openFor(media_->name, media_->identity, *video_, target);
+    }
 }
 
 void ProjectSession::projectMovedTo(const ProjectLists& lists) {
@@ -289,7 +292,7 @@ void ProjectSession::beginRun(RunRequest request) {
 void ProjectSession::watchLive(LiveRequest request) {
     if (running()) return;
     cancelOpening();
-    project_opens_video_ = false;
+    if (std::exchange(project_opens_video_, false)) project_overtaken_ = true;
     playback_.pause();
     request.options = settings_.options;
     request.preset = settings_.preset;

@@ -212,6 +212,8 @@ class ProjectSession : public QObject {
     void mediaFailed(int ticket, const QString& message);
     void projectOpened(const ProjectLists& lists);
     void projectFailed(const std::filesystem::path& project, const QString& message);
+    void awaitProject(bool opens_video);
+    bool isAwaited();
     void projectMovedTo(const ProjectLists& lists);
     void takeLists(const ProjectLists& lists);
     void openVideoOfProject();
@@ -252,6 +254,8 @@ class ProjectSession : public QObject {
     std::filesystem::path project_;
     bool project_open_ = false;
     bool project_opens_video_ = false;  ///< the project that is being opened decides which video to show
+    int projects_due_ = 0;              ///< that are being opened; what was asked for last counts
+    bool project_overtaken_ = false;    ///< something else was asked for since
     std::vector<RunRecord> runs_;
     std::optional<RunRecord> last_removed_run_;
     std::vector<int> resumable_runs_;

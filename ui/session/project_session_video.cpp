@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "session/project/project_location.h"
@@ -13,9 +12,6 @@ namespace eyrie::ui {
 namespace fs = std::filesystem;
 
 namespace {
-/// A project keeps rates as they were measured; nearer than this is the same.
-constexpr double kSameRate = 0.005;
-
 Media mediaOf(const SequenceRecord& sequence) {
     return mediaOfIdentity(sequence.path, {.remembered_hz = sequence.rememberedRate()});
 }
@@ -41,7 +37,7 @@ void ProjectSession::openMedia(Media media, const fs::path& project) {
 
 void ProjectSession::beginOpening(Pending pending) {
     pending_ = std::move(pending);
-    project_opens_video_ = false;
+    if (std::exchange(project_opens_video_, false)) project_overtaken_ = true;
     run_when_open_ = false;
     emit openingProgress(QString::fromStdString(pending_->media.name), 0);
     loader_.openMedia(pending_->media, ++ticket_);
@@ -59,7 +55,7 @@ void ProjectSession::cancelOpening() {
 void ProjectSession::openProject(const fs::path& project) {
     cancelOpening();
     if (running()) stopRun();
-    project_opens_video_ = true;
+    awaitProject(true);
     reader_.open(project);
 }
 
@@ -75,15 +71,7 @@ void ProjectSession::mediaOpened(int ticket, const OpenedVideo& video) {
     }
     if (pending.purpose == Purpose::moved && !isSameVideo(*pending.sequence, video.info)) {
         showWithoutVideo(*pending.sequence, pending.run,
-                         tr("%1 is another video: it has %2 frames of %3 × %4; that of the project has %5 of %6 × %7. "
-                            "Locate the video that the runs were made with.")
-                             .arg(QString::fromStdString(pending.media.identity))
-                             .arg(video.info.frame_count)
-                             .arg(video.info.size.width)
-                             .arg(video.info.size.height)
-                             .arg(pending.sequence->frame_count)
-                             .arg(pending.sequence->size.width)
-                             .arg(pending.sequence->size.height));
+                         whyAnotherVideo(pending.media.identity, video.info, *pending.sequence));
         return;
     }
     const bool same_video = pending.purpose == Purpose::other_rate || pending.purpose == Purpose::remembered_rate;
@@ -111,6 +99,7 @@ void ProjectSession::mediaOpened(int ticket, const OpenedVideo& video) {
     takeLists({});
     useRun(std::nullopt);
     emit changed(SessionChange::runs);
+    awaitProject(false);
     reader_.openFor(pending.media.name, pending.media.identity, video.info, pending.project);
 }
 
@@ -151,7 +140,24 @@ void ProjectSession::adoptVideo(Media media, const OpenedVideo& video, bool keep
 
 // ---- the project ---------------------------------------------------------------------------------------------------
 
+/// A project is on its way from now on; what was asked for before is not wanted any more.
+void ProjectSession::awaitProject(bool opens_video) {
+    ++projects_due_;
+    project_opens_video_ = opens_video;
+    project_overtaken_ = false;
+}
+
+/// Whether the answer that has come is that to what was asked for last. If not, what is shown stays.
+bool ProjectSession::isAwaited() {
+    if (--projects_due_ > 0) return false;
+    if (!std::exchange(project_overtaken_, false)) return true;
+    reader_.forget();
+    return false;
+}
+
 void ProjectSession::projectOpened(const ProjectLists& lists) {
+    if (!isAwaited()) return;
+    reader_.takeUp();
     const bool opens_video = std::exchange(project_opens_video_, false);
     project_ = lists.project;
     project_open_ = true;
@@ -170,9 +176,8 @@ void ProjectSession::projectOpened(const ProjectLists& lists) {
     const SequenceRecord* known = sequenceOfVideo();
     if (media_->given_rate_hz > 0) {
         keepFrameRate();
-    } else if (known != nullptr &&
-               (std::abs(known->frame_rate_hz - video_->frame_rate_hz) > kSameRate * video_->frame_rate_hz ||
-                (video_->frame_rate_assumed && !known->rate_assumed))) {
+    } else if (known != nullptr && (!isSameRate(known->frame_rate_hz, video_->frame_rate_hz) ||
+                                    (video_->frame_rate_assumed && !known->rate_assumed))) {
         beginOpening({mediaOf(*known), Purpose::remembered_rate});
         return;
     }
@@ -212,6 +217,8 @@ void ProjectSession::closeVideo() {
 
 void ProjectSession::closeProject() {
     cancelOpening();
+    project_opens_video_ = false;
+    project_overtaken_ = projects_due_ > 0;
     closeVideo();
     reader_.close();
     project_open_ = false;
@@ -259,13 +266,7 @@ void ProjectSession::setFrameRate(double frames_per_second) {
 }
 
 SequenceRecord ProjectSession::sequenceToStore() const {
-    SequenceRecord sequence;
-    sequence.path = media_->identity;
-    sequence.size = video_->size;
-    sequence.frame_count = video_->frame_count;
-    sequence.frame_rate_hz = video_->frame_rate_hz;
-    sequence.rate_assumed = video_->frame_rate_assumed;
-    return sequence;
+    return sequenceOf(*media_, *video_);
 }
 
 void ProjectSession::keepFrameRate() {
@@ -304,18 +305,8 @@ void ProjectSession::adoptMovedVideo(const SequenceRecord& known, const std::str
 
 void ProjectSession::showWithoutVideo(const SequenceRecord& sequence, std::optional<int> run_id,
                                       const QString& message) {
-    OpenedVideo video;
-    VideoInfo& info = video.info;
-    info.path = sequence.path;
-    info.size = sequence.size;
-    info.frame_count = sequence.frame_count;
-    info.frame_rate_hz = sequence.frame_rate_hz;
-    info.frame_rate_assumed = sequence.rate_assumed;
-    video.times_us.resize(static_cast<size_t>(std::max(0, info.frame_count)));
-    for (size_t i = 0; i < video.times_us.size(); ++i)
-        video.times_us[i] = std::llround(static_cast<double>(i) * 1e6 / std::max(0.001, info.frame_rate_hz));
     loader_.closeMedia();
-    adoptVideo(mediaOf(sequence), video, false);
+    adoptVideo(mediaOf(sequence), videoNotThere(sequence), false);
     missing_ = sequence;
     showProject(run_id);
     emit videoNotFound(message);
@@ -337,7 +328,8 @@ void ProjectSession::adoptLive(const RunRecord& record) {
     if (record.scale.gsd_known) settings_.useGsd(record.scale.gsd_m_per_px, record.scale_basis.origin);
     told_length_ = readable_length_ = 0;
     project_ = run_project_ = live_->project;
-    reader_.open(project_);
+    awaitProject(false);
+    reader_.openInstead(project_);
     setFollowing(true);
 }
 

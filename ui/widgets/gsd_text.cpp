@@ -30,6 +30,11 @@ std::optional<double> gsdFromText(const QString& text) {
     return value;
 }
 
+QString gsdFaultText(const QString& text) {
+    return QObject::tr("GSD “%1”: %2. Leave the field empty if it is not known.")
+        .arg(text.trimmed(), QString::fromStdString(whyNotAGsd(numberFromText(text).value_or(0))));
+}
+
 QString unknownGsdText() {
     return QObject::tr("unknown: speeds in px/frame");
 }

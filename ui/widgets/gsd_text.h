@@ -12,6 +12,9 @@ std::optional<double> numberFromText(const QString& text);
 /// whyNotAGsd() (core/values/scene_scale.h).
 std::optional<double> gsdFromText(const QString& text);
 
+/// Why a text is no ground sampling distance, and the remedy, where gsdFromText() has none of it.
+QString gsdFaultText(const QString& text);
+
 /// What an empty field for it says.
 QString unknownGsdText();
 

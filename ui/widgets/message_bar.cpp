@@ -9,6 +9,7 @@
 #include <QTimer>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "widgets/theme_colours.h"
 #include "widgets/wiring.h"
@@ -127,6 +128,11 @@ void MessageBar::dismissTopic(const QString& topic) {
     for (MessageStrip* strip : shown) {
         if (strip->topic() == topic) remove(strip);
     }
+}
+
+bool MessageBar::shows(const QString& topic) const {
+    return std::any_of(strips_.begin(), strips_.end(),
+                       [&](const MessageStrip* strip) { return strip->topic() == topic; });
 }
 
 MessageStrip* MessageBar::add(MessageKind kind, const QString& text, const QString& action_text,

@@ -56,6 +56,8 @@ class MessageBar : public QWidget {
                    std::function<void()> action = {});
     /// What was said about the topic no longer holds.
     void dismissTopic(const QString& topic);
+    /// Whether a message about the topic is shown.
+    bool shows(const QString& topic) const;
     /// Takes away messages of one kind that no longer hold, or all.
     void dismiss(MessageKind kind);
     void dismissAll();

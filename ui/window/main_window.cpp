@@ -21,10 +21,8 @@
 #include "io/live/live_address.h"
 #include "label/canvas/label_timeline.h"
 #include "label/label_workspace.h"
-#include "review/card/card_dock.h"
 #include "review/correct/track_correcting.h"
 #include "review/earth/earth_dock.h"
-#include "review/earth/ground_control.h"
 #include "review/earth/video_earth.h"
 #include "review/events/event_review.h"
 #include "review/events/events_dock.h"
@@ -32,15 +30,9 @@
 #include "review/inspector/inspector_panel.h"
 #include "review/inspector/track_inspector.h"
 #include "review/mosaic/mosaic_panel.h"
-#include "review/mosaic/mosaic_view.h"
 #include "review/pictures/picture_column.h"
 #include "review/tracks/filter_chips.h"
-#include "review/tracks/like_tracks.h"
 #include "review/tracks/tracks_panel.h"
-#include "review/watch/seen_watch.h"
-#include "review/watch/steady_watch.h"
-#include "review/watch/watch_commands.h"
-#include "review/watch/watched_ground.h"
 #include "tune/compare/live_preview.h"
 #include "tune/evaluate/evaluation_session.h"
 #include "tune/inspect/inspection.h"
@@ -58,6 +50,7 @@
 #include "window/docks/event_report.h"
 #include "window/docks/review_docks.h"
 #include "window/docks/tuning.h"
+#include "window/docks/watching_docks.h"
 #include "window/handover/run_handover.h"
 #include "window/live/live_strip.h"
 #include "window/live/live_watching.h"
@@ -104,56 +97,20 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     inspection_ = new Inspection(session_, this);
     docks_ = new DockRegistry(*this);
     measured_ = new EvaluationSession(session_, this);
-    review_ = new ReviewDocks({session_, *inspection_, *measured_, *docks_, *actions_, overlays_, *guard_, *messages_});
-    events_ = new EventsDock({session_, *canvas_, *timeline_, *docks_, *actions_, *messages_});
-    review_->setDoingsWanted([this] { events_->review().setWanted(); });
-    review_->setQueryChanged([this] {
-        TracksPanel& tracks = review_->tracks();
-        events_->panel().setQuery(tracks.query(), [&tracks] { tracks.chips().clear(); });
-    });
-    events_->correcting().setList(review_->tracks());
-    auto* pictures = new PictureColumn(review_->tracks(), TracksModel::picture_column, session_, [this](int track) {
-        const auto& run = events_->review().tracks();
-        return run ? placeOfTrack(*run, track) : std::nullopt;
-    });
-    whenAny(events_, pictures, &PictureColumn::refresh, &EventsDock::tracksRead);
-    docks_->watch(DockId::tracks, &events_->correcting(), [this](bool) { events_->correcting().enableActions(); });
-    connect(events_, &EventsDock::eventsShown, this, [this] {
-        const auto& found = events_->review().found();
-        review_->tracks().setDoings(found ? found->doings : nullptr);
-    });
-    buildWatching();
+    buildReview();
+    watching_ = new WatchingDocks(
+        {session_, *canvas_, *timeline_, *review_, *events_, *docks_, *actions_, *messages_, overlays_, *this});
     event_report_ = new EventReport({session_, *events_, *messages_, *this});
     new RunHandover({session_, *events_, *actions_, *messages_, *this});
     tuning_ = new Tuning(
         {session_, *canvas_, *docks_, review_->parameterForm(), *actions_, review_->parameters(), overlays_, *this});
     buildEvaluation();
     new TimelineThumbnails(session_, *timeline_, this);
-    auto* binding = new TimelineBinding(session_, *timeline_, review_->stageTimes(), this);
-    binding->setClock([this](FrameIndex frame) { return earth_->earth().clockText(frame); });
-    status_ = new StatusFields(session_, *statusBar());
-    status_->setPlaces({[this](QPointF px) { return earth_->earth().placeOf(session_.shownFrame(), px); },
-                        [this] { return earth_->earth().origin(); }});
-    whenAny(&earth_->earth(), status_, &StatusFields::showPlace, &VideoEarth::changed);
-    whenAny(&earth_->earth(), this, &MainWindow::showClock, &VideoEarth::clockChanged);
-    showClock();
-    TrackInspector& inspector = review_->inspector().track();
-    inspector.setCourse([this](FrameIndex frame, const OrientedBox& box) {
-        return earth_->earth().courseOf(frame, {box.centre.x, box.centre.y}, box.heading);
-    });
-    whenAny(&earth_->earth(), &inspector, &TrackInspector::showCourse, &VideoEarth::changed);
+    buildClock();
     labelling_ = new LabelWorkspace(
         {session_, *canvas_, *timeline_, *label_rows_, *messages_, *actions_, *docks_, keys_, *this});
     evaluation_->join(*labelling_);
-    auto* told = new RunMessages(
-        session_, *messages_, *docks_, [this] { files_->locateVideo(); }, this);
-    const auto tell_events = [this, told] {
-        const auto& found = events_->review().found();
-        // What a run that works has found so far is no news of its end.
-        if (found && !events_->review().asOf() && session_.currentRun())
-            told->tellEvents(*session_.currentRun(), found->events.size());
-    };
-    whenAny(events_, told, tell_events, &EventsDock::eventsShown);
+    buildRunMessages();
     files_ =
         new OpenedFiles({session_, settings_, *actions_, *messages_, *guard_, *run_bar_, *welcome_, *canvas_, *this});
     live_ = new LiveWatching({session_, settings_, *actions_, *guard_, [this] { files_->rememberView(); }, *this});
@@ -271,8 +228,6 @@ void MainWindow::buildWorkspaces() {
         if (!labels) labelling_->setActive(false);
         events_->setActive(!labels);
         watching_->setActive(!labels);
-        earth_->control().setActive(!labels);
-        steady_->setActive(!labels);
         if (labels) labelling_->setActive(true);
         fitRows();
         // Zones are drawn, tracks narrowed by what they did and the ground held still, whichever list is in front.
@@ -288,44 +243,61 @@ void MainWindow::buildWorkspaces() {
     workspaces_->restore(settings_.value(kWorkspaces, {}).toMap());
 }
 
-void MainWindow::buildWatching() {
-    ground_ = new WatchedGround(this);
-    like_ = new LikeTracks({session_, review_->tracks(), *docks_, *actions_, *messages_}, this);
-    review_->setLikenessWanted([this](std::optional<TrackId> track) { like_->want(track); });
-    earth_ = new EarthDock({session_, *canvas_, *docks_, *actions_, *messages_});
-    whenAny(
-        events_, ground_,
-        [this] {
-            ground_->setRun(events_->review().tracks());
-            earth_->earth().setRun(events_->review().tracks());
-        },
-        &EventsDock::tracksRead);
-    whenAny(
-        ground_, like_, [this] { like_->setGround(ground_->ground()); }, &WatchedGround::changed);
-    steady_ = new SteadyWatch({session_, *canvas_, *actions_, *ground_}, this);
-    watching_ = new WatchCommands({session_, *canvas_, *actions_, *messages_, overlays_, *ground_}, this);
-    const auto show_watched = [this](const std::optional<WatchedFrames>& watched) {
-        events_->panel().showSeen(watched ? std::optional(watched->share) : std::nullopt);
-        timeline_->setWatched(watched ? std::optional(watched->spans) : std::nullopt);
+void MainWindow::buildReview() {
+    review_ = new ReviewDocks({session_, *inspection_, *measured_, *docks_, *actions_, overlays_, *guard_, *messages_});
+    events_ = new EventsDock({session_, *canvas_, *timeline_, *docks_, *actions_, *messages_});
+    review_->setDoingsWanted([this] { events_->review().setWanted(); });
+    review_->setQueryChanged([this] {
+        TracksPanel& tracks = review_->tracks();
+        events_->panel().setQuery(tracks.query(), [&tracks] { tracks.chips().clear(); });
+    });
+    events_->correcting().setList(review_->tracks());
+    auto* pictures = new PictureColumn(review_->tracks(), TracksModel::picture_column, session_, [this](int track) {
+        const auto& run = events_->review().tracks();
+        return run ? placeOfTrack(*run, track) : std::nullopt;
+    });
+    whenAny(events_, pictures, &PictureColumn::refresh, &EventsDock::tracksRead);
+    docks_->watch(DockId::tracks, &events_->correcting(), [this](bool) { events_->correcting().enableActions(); });
+    connect(events_, &EventsDock::eventsShown, this, [this] {
+        const auto& found = events_->review().found();
+        review_->tracks().setDoings(found ? found->doings : nullptr);
+    });
+}
+
+void MainWindow::buildClock() {
+    VideoEarth& earth = watching_->earth().earth();
+    auto* binding = new TimelineBinding(session_, *timeline_, review_->stageTimes(), this);
+    binding->setClock([&earth](FrameIndex frame) { return earth.clockText(frame); });
+    status_ = new StatusFields(session_, *statusBar());
+    status_->setPlaces({[this, &earth](QPointF px) { return earth.placeOf(session_.shownFrame(), px); },
+                        [&earth] { return earth.origin(); }});
+    whenAny(&earth, status_, &StatusFields::showPlace, &VideoEarth::changed);
+    whenAny(&earth, this, &MainWindow::showClock, &VideoEarth::clockChanged);
+    showClock();
+    TrackInspector& inspector = review_->inspector().track();
+    inspector.setCourse([&earth](FrameIndex frame, const OrientedBox& box) {
+        return earth.courseOf(frame, {box.centre.x, box.centre.y}, box.heading);
+    });
+    whenAny(&earth, &inspector, &TrackInspector::showCourse, &VideoEarth::changed);
+}
+
+void MainWindow::buildRunMessages() {
+    auto* told = new RunMessages(
+        session_, *messages_, *docks_, [this] { files_->locateVideo(); }, this);
+    const auto tell_events = [this, told] {
+        const auto& found = events_->review().found();
+        // What a run that works has found so far is no news of its end.
+        if (found && !events_->review().asOf() && session_.currentRun())
+            told->tellEvents(*session_.currentRun(), found->events.size());
     };
-    seen_ = new SeenWatch(session_, *canvas_, *this, show_watched, this);
-    card_ = new CardDock({session_, *docks_, *events_, *ground_});
-    mosaic_ = new MosaicPanel({session_, overlays_, *ground_});
-    docks_->add(DockId::mosaic, tr("Mosaic"), mosaic_);
-    docks_->watch(DockId::mosaic, mosaic_, [this](bool visible) { mosaic_->setLookedAt(visible); });
-    bindCommands(this, {{actions_->show_mosaic, [this] {
-                             docks_->raise(DockId::mosaic);
-                             mosaic_->view().setFocus();
-                         }}});
+    whenAny(events_, told, tell_events, &EventsDock::eventsShown);
 }
 
 void MainWindow::buildEvaluation() {
     evaluation_ = new EvaluationDocks(session_, *measured_, *canvas_, *actions_, overlays_, *docks_, *messages_, *this);
     connect(evaluation_, &EvaluationDocks::whyRequested, tuning_, &Tuning::askWhyAbout);
-    // A preview takes the verdicts away, which are those of the stored run; they come back with it.
-    connect(&tuning_->preview(), &LivePreview::changed, evaluation_, [this] {
-        if (!tuning_->preview().active()) evaluation_->showMarks();
-    });
+    connect(&tuning_->preview(), &LivePreview::changed, evaluation_,
+            [this] { evaluation_->setPreviewed(tuning_->preview().active()); });
 }
 
 void MainWindow::wireInspection() {
@@ -385,12 +357,12 @@ void MainWindow::showVideo() {
 }
 
 void MainWindow::showClock() {
-    const VideoEarth& earth = earth_->earth();
+    const VideoEarth& earth = watching_->earth().earth();
     const ClockOfFrames clock = earth.clock();
     status_->setClock(clock);
     events_->setClock(clock);
     review_->setClock(clock);
-    mosaic_->setClock(clock);
+    watching_->mosaic().setClock(clock);
     if (clock.known())
         timeline_->setClock([&earth](std::int64_t video_us) { return earth.utcAt(video_us); });
     else
@@ -417,7 +389,6 @@ void MainWindow::enableActions() {
             if (section.actions.contains(actions_->play) || section.actions.contains(actions_->fit))
                 action->setEnabled(has_video);
     actions_->full_screen->setEnabled(true);
-    steady_->enableActions();
     watching_->enableActions();
     for (QAction* action : actions_->workspace) action->setEnabled(true);
     actions_->run->setEnabled(has_video && !running);

@@ -12,9 +12,7 @@ class QStackedWidget;
 
 namespace eyrie::ui {
 
-class CardDock;
 class DockRegistry;
-class EarthDock;
 class EvaluationDocks;
 class EvaluationSession;
 class EventReport;
@@ -22,24 +20,19 @@ class EventsDock;
 class Inspection;
 class LabelTimeline;
 class LabelWorkspace;
-class LikeTracks;
 class LiveStrip;
 class LiveWatching;
 class MessageBar;
-class MosaicPanel;
 class OpenedFiles;
 class ReviewDocks;
 class RunBar;
 class RunGuard;
-class SeenWatch;
 class StatusFields;
-class SteadyWatch;
 class TimelineView;
 class TransportBar;
 class Tuning;
 class VideoView;
-class WatchCommands;
-class WatchedGround;
+class WatchingDocks;
 class WelcomePanel;
 class WindowActions;
 class WindowCommands;
@@ -70,12 +63,7 @@ class MainWindow : public QMainWindow {
     Workspaces& workspaces() { return *workspaces_; }
     LabelWorkspace& labelling() { return *labelling_; }
     EventsDock& events() { return *events_; }
-    WatchedGround& ground() { return *ground_; }
-    CardDock& card() { return *card_; }
-    MosaicPanel& mosaic() { return *mosaic_; }
-    EarthDock& earth() { return *earth_; }
-    SeenWatch& seen() { return *seen_; }
-    WatchCommands& watching() { return *watching_; }
+    WatchingDocks& watching() { return *watching_; }
     EventReport& eventReport() { return *event_report_; }
     EvaluationDocks& evaluation() { return *evaluation_; }
     Tuning& tuning() { return *tuning_; }
@@ -93,8 +81,11 @@ class MainWindow : public QMainWindow {
     void buildCentre();
     void buildMenus();
     void buildToolBar();
+    void buildReview();
+    /// Times of the day and places on the earth in the timeline, the status bar and the inspector.
+    void buildClock();
     void buildEvaluation();
-    void buildWatching();
+    void buildRunMessages();
     void buildWorkspaces();
     void wireCanvas();
     void wireSession();
@@ -134,14 +125,7 @@ class MainWindow : public QMainWindow {
     DockRegistry* docks_;
     ReviewDocks* review_;
     EventsDock* events_;
-    WatchedGround* ground_;
-    LikeTracks* like_;
-    SteadyWatch* steady_;
-    WatchCommands* watching_;
-    SeenWatch* seen_;
-    MosaicPanel* mosaic_;
-    EarthDock* earth_;
-    CardDock* card_;
+    WatchingDocks* watching_;
     EventReport* event_report_;
     EvaluationSession* measured_;
     EvaluationDocks* evaluation_;

@@ -44,7 +44,7 @@ void RunMessages::wireRuns() {
                                                                         forgetRun();
                                                                     }}});
     connect(&session_, &ProjectSession::runSummarised, this, [this](const RunRecord& run, const RunFacts& facts) {
-        summary_ = Summary{run, facts, {}};
+        summary_ = Summary{run, facts};
         showSummary();
     });
     connect(&session_, &ProjectSession::runRemoved, this, [this](const RunRecord& run) {
@@ -67,8 +67,8 @@ void RunMessages::showSummary() {
     const std::size_t events = any_tracks && events_.run_id == summary_->run.id ? events_.count : 0;
     const bool doubtful = !any_tracks || facts.state == RunState::failed;
     const QString action = events > 0 ? tr("Review the events") : any_tracks ? tr("Show the tracks") : QString();
-    summary_->text = runSummaryText(summary_->run, facts, events);
-    messages_.showTopic(kRunTopic, doubtful ? MessageKind::warning : MessageKind::info, summary_->text, action,
+    messages_.showTopic(kRunTopic, doubtful ? MessageKind::warning : MessageKind::info,
+                        runSummaryText(summary_->run, facts, events), action,
                         [this, dock = events > 0 ? DockId::events : DockId::tracks] { docks_.raise(dock); });
 }
 
@@ -76,7 +76,7 @@ void RunMessages::tellEvents(int run_id, std::size_t count) {
     if (events_.run_id == run_id && events_.count == count) return;
     events_ = {run_id, count};
     // What a person has sent away does not come back.
-    if (summary_ && summary_->run.id == run_id && messages_.texts().contains(summary_->text)) showSummary();
+    if (summary_ && summary_->run.id == run_id && messages_.shows(kRunTopic)) showSummary();
 }
 
 }  // namespace eyrie::ui

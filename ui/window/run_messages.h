@@ -30,7 +30,6 @@ class RunMessages : public QObject {
     struct Summary {
         RunRecord run;
         RunFacts facts;
-        QString text;
     };
     struct Events {
         int run_id = 0;

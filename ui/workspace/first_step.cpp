@@ -19,4 +19,8 @@ QString afterFirstStep(const ProjectSession& session, const QString& about) {
     return step.isEmpty() ? about : step + QLatin1Char(' ') + about;
 }
 
+QString notProcessedText() {
+    return QCoreApplication::translate("FirstStep", "The run has not processed this frame.");
+}
+
 }  // namespace eyrie::ui

@@ -11,5 +11,7 @@ class ProjectSession;
 QString firstStep(const ProjectSession& session);
 /// The sentence and, behind it, what the dock shows.
 QString afterFirstStep(const ProjectSession& session, const QString& about);
+/// What a dock says where the run shown has nothing of the frame shown.
+QString notProcessedText();
 
 }  // namespace eyrie::ui

@@ -29,17 +29,21 @@ std::string signalText(int number) {
     return text;
 }
 
-/// Whether a project is free for a video: not there, without one yet, or holding that one.
-bool isFreeFor(const std::filesystem::path& project, const std::filesystem::path& video) {
-    if (!isFile(project)) return true;
+/// What stands where the project of a video might go.
+enum class Place { nothing, its_project, vacant, taken };
+
+Place placeFor(const std::filesystem::path& project, const std::filesystem::path& video) {
+    if (isFolder(project)) return Place::taken;
+    if (!isFile(project)) return Place::nothing;
     try {
         ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
         const std::vector<SequenceRecord> sequences = sequencesOf(file);
-        return sequences.empty() || std::any_of(sequences.begin(), sequences.end(), [&](const SequenceRecord& known) {
-                   return known.path == video.string();
-               });
+        if (sequences.empty()) return Place::vacant;
+        const bool holds = std::any_of(sequences.begin(), sequences.end(),
+                                       [&](const SequenceRecord& known) { return known.path == video.string(); });
+        return holds ? Place::its_project : Place::taken;
     } catch (const Error&) {
-        return true;  // the command that works on it will say what is wrong
+        return Place::vacant;  // the command that works on it will say what is wrong
     }
 }
 
@@ -92,12 +96,21 @@ void Batch::add(const std::vector<BatchInput>& inputs, bool anew) {
 }
 
 std::filesystem::path Batch::projectFor(const BatchInput& input) {
+    std::optional<std::filesystem::path> free;
     for (int attempt = 0;; ++attempt) {
-        std::filesystem::path project = options_.out / (attempt == 0 ? nameOfWork(input) : input.name);
+        std::filesystem::path project = options_.out / (attempt == 0 ? nameOf(input) : input.name);
         project += (attempt < 2 ? "" : "-" + std::to_string(attempt)) + std::string(kProjectEnding);
         const auto known = projects_.find(project);
-        const bool ours = known != projects_.end() && known->second == input.path;
-        if (!ours && (known != projects_.end() || !isFreeFor(project, input.path))) continue;
+        if (known != projects_.end() && known->second == input.path) return project;
+        if (known != projects_.end()) continue;
+        const Place place = placeFor(project, input.path);
+        if (place == Place::taken) continue;
+        // What was begun in one of the places goes on there, whichever have come free since.
+        if (place != Place::its_project) {
+            if (!free) free = project;
+            if (attempt < 2 || place != Place::nothing) continue;
+            project = *free;
+        }
         projects_[project] = input.path;
         return project;
     }
@@ -154,7 +167,8 @@ void Batch::begin(std::size_t number) {
     std::filesystem::create_directories(row.project.parent_path(), failed);
     if (failed) {
         return close(number, BatchState::failed,
-                     row.project.parent_path().string() + ": the folder cannot be made: " + failed.message());
+                     row.project.parent_path().string() + ": the folder cannot be made (" + failed.message() +
+                         "); make it writable, or choose another with --out");
     }
     std::vector<std::string> words{"run", row.input.path.string(), "--project", row.project.string(), "--quiet"};
     if (!row.anew) words.emplace_back("--resume");

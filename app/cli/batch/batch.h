@@ -14,6 +14,7 @@
 
 namespace eyrie::cli {
 
+/// What a batch is asked to do.
 struct BatchOptions {
     std::filesystem::path out;           ///< folder for projects, summary and log; made where it is missing
     std::string record = "batch";        ///< how summary (.csv) and log (.jsonl) are called

@@ -65,7 +65,9 @@ BatchOptions BatchArguments::options(const std::string& record) const {
     }
     std::error_code failed;
     std::filesystem::create_directories(options.out, failed);
-    if (failed) throw Error(ErrorKind::output, out + ": the folder cannot be made: " + failed.message());
+    if (failed)
+        throw Error(ErrorKind::output,
+                    out + ": the folder cannot be made (" + failed.message() + "); choose another with --out");
     // Summary and log are ours to write on; what else lies under these names is not.
     filesToReplace(
         {{options.out / (record + ".csv"), FileKind::text}, {options.out / (record + ".jsonl"), FileKind::json, true}},

@@ -164,9 +164,15 @@ std::vector<BatchInput> findInputs(const std::vector<std::string>& places, Known
     return search.found;
 }
 
-std::filesystem::path nameOfWork(const BatchInput& input) {
+std::filesystem::path nameOf(const BatchInput& input) {
     fs::path name = input.name;
     return isFolder(input.path) ? name : name.replace_extension();
+}
+
+std::filesystem::path nameOfWork(const BatchInput& input) {
+    fs::path name = nameOf(input);
+    while (hasVideoName(name) || hasPartListName(name)) name.replace_extension();
+    return name;
 }
 
 bool Shard::takes(const std::filesystem::path& name_of_work) const {

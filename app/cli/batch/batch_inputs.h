@@ -30,10 +30,11 @@ using KnownFiles = std::map<std::filesystem::path, std::pair<BatchInput, bool>>;
 std::vector<BatchInput> findInputs(const std::vector<std::string>& places);
 std::vector<BatchInput> findInputs(const std::vector<std::string>& places, KnownFiles& files);
 
-/// The name of an input without its ending, of a folder as it is: "monday/a". Inputs that share it, such as a.mp4 and
-/// a.mov, are one piece of work, so that one batch alone decides which project is whose. But for one case: beside
-/// a.mov, a.mp4 has the project a.mp4.eyrie, which is that of a.mp4.mov, too. Where they fall to different parts that
-/// begin at the same time, one project may get both videos, each with its run.
+/// The name of an input without its ending, of a folder as it is: "monday/a". That of its project, if it is free.
+std::filesystem::path nameOf(const BatchInput& input);
+
+/// The same without further endings of videos: "a" of a.mov, a.mp4 and a.mp4.mov, which may all want a.eyrie or
+/// a.mp4.eyrie. Inputs that share it are one piece of work, so that one batch alone decides which project is whose.
 std::filesystem::path nameOfWork(const BatchInput& input);
 
 /// Part `part` (from 1) of `parts`; together they are everything, once.

@@ -8,6 +8,7 @@
 
 namespace eyrie::cli {
 
+/// How far one file of a batch is.
 enum class BatchState {
     waiting,
     working,

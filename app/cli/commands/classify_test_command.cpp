@@ -133,53 +133,58 @@ void prepareFolder(const ClassifyTestArguments& arguments, const std::vector<Des
     arguments.outputs.check(files, {folders.begin(), folders.end()});
     std::error_code error;
     fs::create_directories(arguments.out, error);
-    if (error) throw Error(ErrorKind::output, arguments.out + ": the folder cannot be made: " + error.message());
+    if (error)
+        throw Error(ErrorKind::output,
+                    arguments.out + ": the folder cannot be made (" + error.message() + "); choose another with --out");
 }
 
 int run(const ClassifyTestArguments& arguments) {
     const auto descriptors = chosen(arguments.descriptors, allDescriptors(), descriptorFromName);
     const auto classifiers = chosen(arguments.classifiers, allClassifiers(), classifierFromName);
     TrainingOptions options = plainOptions(arguments);
-    const InterruptGuard interrupt;
-    const SetsBySource sets = readSets(arguments, options.cutting(), interrupt.token());
-    std::set<std::string> train_on(arguments.train_on.begin(), arguments.train_on.end());
-    for (const std::string& name : train_on) {
-        if (!sets.count(name)) throw Error(ErrorKind::parameter, "--train-on " + name + ": no such source of samples");
-    }
-    if (train_on.empty()) {
-        for (const auto& [name, set] : sets) train_on.insert(name);
-    }
-    prepareFolder(arguments, descriptors, classifiers, sets, train_on);
-    TrainingWatch watch;
-    watch.stop = interrupt.token();
-    ClassificationTable table(descriptors, classifiers);
-    for (const auto& [name, set] : sets) table.addSource(name, countOf(set, true), countOf(set, false));
-    for (const DescriptorKind descriptor : descriptors) {
-        for (const ClassifierKind classifier : classifiers) {
-            options.descriptor = descriptor;
-            options.classifier = classifier;
-            for (const std::string& source : train_on) {
-                const auto seed = static_cast<std::uint64_t>(arguments.seed);
-                const SampleSet train = drawn(sets.at(source), arguments.vehicles, 2 * arguments.vehicles, false, seed);
-                const auto model = trainModel(train, options, {}, watch);
-                if (!model) return exit_stopped;
-                for (const auto& [other, set] : sets) {
-                    if (other == source) continue;
-                    const auto result =
-                        classify(*model, drawn(set, static_cast<int>(set.size()), arguments.test_others, true, seed));
-                    table.add(descriptor, classifier, source, other, result);
-                    if (!arguments.out.empty())
-                        writeRocCsv(curveFile(arguments, descriptor, classifier, source, other), result.curve);
-                    if (!arguments.quiet) {
-                        std::fprintf(stderr, "%s + %s trained on %s, tested on %s: AUC %.4f\n", nameOf(descriptor),
-                                     nameOf(classifier), source.c_str(), other.c_str(), result.area());
+    return untilStopped([&](const std::stop_token& stop) {
+        const SetsBySource sets = readSets(arguments, options.cutting(), stop);
+        std::set<std::string> train_on(arguments.train_on.begin(), arguments.train_on.end());
+        for (const std::string& name : train_on) {
+            if (!sets.count(name))
+                throw Error(ErrorKind::parameter, "--train-on " + name + ": no such source of samples");
+        }
+        if (train_on.empty()) {
+            for (const auto& [name, set] : sets) train_on.insert(name);
+        }
+        prepareFolder(arguments, descriptors, classifiers, sets, train_on);
+        TrainingWatch watch;
+        watch.stop = stop;
+        ClassificationTable table(descriptors, classifiers);
+        for (const auto& [name, set] : sets) table.addSource(name, countOf(set, true), countOf(set, false));
+        for (const DescriptorKind descriptor : descriptors) {
+            for (const ClassifierKind classifier : classifiers) {
+                options.descriptor = descriptor;
+                options.classifier = classifier;
+                for (const std::string& source : train_on) {
+                    const auto seed = static_cast<std::uint64_t>(arguments.seed);
+                    const SampleSet train =
+                        drawn(sets.at(source), arguments.vehicles, 2 * arguments.vehicles, false, seed);
+                    const auto model = trainModel(train, options, {}, watch);
+                    if (!model) return exit_stopped;
+                    for (const auto& [other, set] : sets) {
+                        if (other == source) continue;
+                        const auto result = classify(
+                            *model, drawn(set, static_cast<int>(set.size()), arguments.test_others, true, seed));
+                        table.add(descriptor, classifier, source, other, result);
+                        if (!arguments.out.empty())
+                            writeRocCsv(curveFile(arguments, descriptor, classifier, source, other), result.curve);
+                        if (!arguments.quiet) {
+                            std::fprintf(stderr, "%s + %s trained on %s, tested on %s: AUC %.4f\n", nameOf(descriptor),
+                                         nameOf(classifier), source.c_str(), other.c_str(), result.area());
+                        }
                     }
                 }
             }
         }
-    }
-    std::printf("%s", arguments.json ? table.json().c_str() : table.text().c_str());
-    return exit_ok;
+        std::printf("%s", arguments.json ? table.json().c_str() : table.text().c_str());
+        return exit_ok;
+    });
 }
 
 }  // namespace

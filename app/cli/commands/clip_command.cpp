@@ -20,13 +20,11 @@
 namespace eyrie::cli {
 namespace {
 
-constexpr double kAround_s = 2;
-
 struct ClipArguments {
     EventArguments events;
     std::optional<int> event;
     std::string frames;
-    double around_s = kAround_s;
+    double around_s = kAroundClip_s;
     bool overlay = false;
     std::string out;
     OutputArguments outputs;
@@ -55,14 +53,13 @@ FrameRange framesAsked(const ClipArguments& arguments, int frame_count) {
 }
 
 /// Answers the exit code.
-int makeClip(const ClipArguments& arguments) {
+int makeClip(const ClipArguments& arguments, const std::stop_token& stop) {
     if (arguments.event.has_value() == !arguments.frames.empty()) {
         throw Error(ErrorKind::parameter, "clip needs to know what to cut: either --event N or --frames A:B");
     }
     if (!(std::isfinite(arguments.around_s) && arguments.around_s >= 0)) {
         throw Error(ErrorKind::parameter, "--around: expected 0 seconds or more, e.g. 2");
     }
-    const InterruptGuard interrupt;
     const EventChoice choice = arguments.events.choice();
     ProjectFile project = openForReading(arguments.events.project);
     const RunStore store(project);
@@ -75,14 +72,14 @@ int makeClip(const ClipArguments& arguments) {
         arguments.events.tellZones(reviewed);
         range = framesOfEvent(arguments, reviewed);
     }
-    const auto source = openInput(run.sequence.path, 0, interrupt.token(), run.sequence.frame_rate_hz);
+    const auto source = openInput(run.sequence.path, 0, stop, run.sequence.frame_rate_hz);
     if (!range) range = framesAsked(arguments, source->info().frame_count);
     ConsoleProgress progress("% written");
     const auto show = [&](double share) {
         if (!arguments.quiet) progress.showShare(share);
     };
     const ClipWish wish{*range, arguments.overlay, arguments.events.uncorrected};
-    const auto written = writeClip(wish, project, run, *source, arguments.out, show, interrupt.token());
+    const auto written = writeClip(wish, project, run, *source, arguments.out, show, stop);
     if (!written) return exit_stopped;
     std::printf("Clip: %s, frames %d to %d\n", arguments.out.c_str(), written->first, written->last);
     return exit_ok;
@@ -106,7 +103,9 @@ void addClipCommand(CLI::App& app, int& exit_code) {
     command->add_option("--out", arguments->out, "Video to write (mp4)")->required();
     arguments->outputs.addTo(*command);
     addQuiet(*command, arguments->quiet);
-    command->callback([arguments, &exit_code] { exit_code = makeClip(*arguments); });
+    command->callback([arguments, &exit_code] {
+        exit_code = untilStopped([&](const std::stop_token& stop) { return makeClip(*arguments, stop); });
+    });
 }
 
 }  // namespace eyrie::cli

@@ -182,65 +182,66 @@ int compare(const CompareArguments& arguments) {
                             {arguments.sequence, arguments.ground_truth.file, arguments.preset.preset});
     ComparisonReport report;
     const std::vector<Planned> planned = plan(arguments, report.remarks);
-    const InterruptGuard interrupt;
-    const auto source = openInput(arguments.sequence, arguments.video.frame_rate_hz.value_or(0), interrupt.token(),
-                                  rememberedRate(arguments.project, arguments.sequence));
-    const VideoInfo& video = source->info();
-    GroundTruth truth = readGroundTruth(arguments.ground_truth.source(), video.size);
-    FrameRange range = arguments.video.range();
-    if (range.last < 0) range.last = video.frame_count - 1;
-    const StatedScale stated = statedScale(*source, range.first, range.last, arguments.video.gsd_m_per_px.value_or(0),
-                                           ScaleOrigin::given, interrupt.token());
-    const ChosenScale chosen = chooseScale(*source, range, planned.front().variant.options, stated, interrupt.token());
-    for (std::string& remark : remarksOn(stated, chosen)) report.remarks.push_back(std::move(remark));
-    const SceneScale& scale = chosen.scale;
+    return untilStopped([&](const std::stop_token& stop) {
+        const auto source = openInput(arguments.sequence, arguments.video.frame_rate_hz.value_or(0), stop,
+                                      rememberedRate(arguments.project, arguments.sequence));
+        const VideoInfo& video = source->info();
+        GroundTruth truth = readGroundTruth(arguments.ground_truth.source(), video.size);
+        FrameRange range = arguments.video.range();
+        if (range.last < 0) range.last = video.frame_count - 1;
+        const StatedScale stated = statedScale(*source, range.first, range.last,
+                                               arguments.video.gsd_m_per_px.value_or(0), ScaleOrigin::given, stop);
+        const ChosenScale chosen = chooseScale(*source, range, planned.front().variant.options, stated, stop);
+        for (std::string& remark : remarksOn(stated, chosen)) report.remarks.push_back(std::move(remark));
+        const SceneScale& scale = chosen.scale;
 
-    std::vector<MethodVariant> methods;
-    for (const Planned& method : planned) methods.push_back(method.variant);
-    std::optional<Recorders> recorders;
-    if (!arguments.project.empty()) {
-        if (!keepEarlierState(arguments.project, interrupt.token())) return exit_stopped;
-        RunRecord like = plannedRun(video, scale, range, arguments.preset.preset);
-        like.scale_basis = chosen.basis;
-        recorders.emplace(arguments.project, planned, like);
-    }
-    ConsoleProgress console("frames");
-    FrameIndex reached = range.first - 1;
-    const std::vector<MethodResult> results = runMethods(
-        *source, range, methods, scale, interrupt.token(),
-        [&](const RunProgress& progress) {
-            reached = range.first + progress.frames_done - 1;
-            if (!arguments.quiet) {
-                console.show(progress.frames_done, progress.frames_total, progress.frames_per_second,
-                             progress.seconds_left);
-            }
-        },
-        [&](std::size_t method, const std::shared_ptr<const FrameResult>& result, const Frame& frame) {
-            if (recorders) recorders->onFrame(method, result, frame);
-        });
-    const bool whole = reached == range.last;
-    if (recorders) recorders->finish(whole);
+        std::vector<MethodVariant> methods;
+        for (const Planned& method : planned) methods.push_back(method.variant);
+        std::optional<Recorders> recorders;
+        if (!arguments.project.empty()) {
+            if (!keepEarlierState(arguments.project, stop)) return exit_stopped;
+            RunRecord like = plannedRun(video, scale, range, arguments.preset.preset);
+            like.scale_basis = chosen.basis;
+            recorders.emplace(arguments.project, planned, like);
+        }
+        ConsoleProgress console("frames");
+        FrameIndex reached = range.first - 1;
+        const std::vector<MethodResult> results = runMethods(
+            *source, range, methods, scale, stop,
+            [&](const RunProgress& progress) {
+                reached = range.first + progress.frames_done - 1;
+                if (!arguments.quiet) {
+                    console.show(progress.frames_done, progress.frames_total, progress.frames_per_second,
+                                 progress.seconds_left);
+                }
+            },
+            [&](std::size_t method, const std::shared_ptr<const FrameResult>& result, const Frame& frame) {
+                if (recorders) recorders->onFrame(method, result, frame);
+            });
+        const bool whole = reached == range.last;
+        if (recorders) recorders->finish(whole);
 
-    EvaluationOptions wishes = arguments.evaluation.options;
-    wishes.image_size = video.size;
-    const Scoring scoring = scoringOf(std::move(truth), wishes, ScoredFrames{range.first, reached});
-    report.sequence = arguments.sequence;
-    report.ground_truth = scoring.truth.name;
-    report.frames = reached - range.first + 1;
-    report.options = scoring.options;
-    report.remarks.insert(report.remarks.end(), scoring.truth.remarks.begin(), scoring.truth.remarks.end());
-    for (const double overlap : arguments.evaluation.overlaps) {
-        report.blocks.push_back(
-            rowsAt(overlap, arguments, scoring, planned, results, {range.first, reached}, scale.frame_rate_hz));
-    }
-    if (!arguments.project.empty()) {
-        ProjectFile project = ProjectFile::open(arguments.project);
-        addComparison(project, video.path.string(), jsonText(report));
-    }
-    if (!arguments.csv.empty()) writeFileAtomically(arguments.csv, csvText(report));
-    report.published = arguments.published;
-    std::fputs((arguments.json ? jsonText(report) : tableText(report)).c_str(), stdout);
-    return whole ? exit_ok : exit_stopped;
+        EvaluationOptions wishes = arguments.evaluation.options;
+        wishes.image_size = video.size;
+        const Scoring scoring = scoringOf(std::move(truth), wishes, ScoredFrames{range.first, reached});
+        report.sequence = arguments.sequence;
+        report.ground_truth = scoring.truth.name;
+        report.frames = reached - range.first + 1;
+        report.options = scoring.options;
+        report.remarks.insert(report.remarks.end(), scoring.truth.remarks.begin(), scoring.truth.remarks.end());
+        for (const double overlap : arguments.evaluation.overlaps) {
+            report.blocks.push_back(
+                rowsAt(overlap, arguments, scoring, planned, results, {range.first, reached}, scale.frame_rate_hz));
+        }
+        if (!arguments.project.empty()) {
+            ProjectFile project = ProjectFile::open(arguments.project);
+            addComparison(project, video.path.string(), jsonText(report));
+        }
+        if (!arguments.csv.empty()) writeFileAtomically(arguments.csv, csvText(report));
+        report.published = arguments.published;
+        std::fputs((arguments.json ? jsonText(report) : tableText(report)).c_str(), stdout);
+        return whole ? exit_ok : exit_stopped;
+    });
 }
 
 }  // namespace
@@ -251,10 +252,12 @@ void addCompareCommand(CLI::App& app, int& exit_code) {
     command->add_option("--sequence", arguments->sequence, "A video file, a folder of images, or scene:NAME")
         ->required();
     arguments->ground_truth.addTo(*command)->required();
-    command->add_option("--methods", arguments->methods,
-                        "Methods, or groups of them: detectors and peer (default; the simplest competitor, three-frame "
-                        "difference with SORT), gradients, rescaling, motion; the first one is what the others are "
-                        "compared with");
+    command
+        ->add_option("--methods", arguments->methods,
+                     "Methods, or groups of them: detectors and peer (default; the simplest competitor, three-frame "
+                     "difference with SORT), gradients, rescaling, motion; the first one is what the others are "
+                     "compared with")
+        ->delimiter(',');
     command->add_option("--stacking", arguments->stacking, "off, on, or both: off,on")
         ->delimiter(',')
         ->check(CLI::IsMember({"on", "off"}))

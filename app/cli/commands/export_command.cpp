@@ -45,21 +45,6 @@ struct ExportArguments {
     bool keep = false;
 };
 
-/// What a person stops ends as it does in every command; of what is stopped too late all is written. Answers the exit
-/// code. `write` gets the token of the stop.
-template <class Write>
-int untilStopped(const Write& write) {
-    const InterruptGuard interrupt;
-    try {
-        write(interrupt.token());
-    } catch (const Error& error) {
-        if (!interrupt.token().stop_requested()) throw;
-        std::fprintf(stderr, "eyrie-cli: %s\n", error.what());
-        return exit_stopped;
-    }
-    return exit_ok;
-}
-
 /// How to write what is `about`, of which `source` names the sequence where nobody did. The names of some files follow
 /// from it, so that they are checked only now; nothing was written before.
 ExportOptions checkedOptions(const ExportArguments& arguments, const LabelFile& about, const std::string& source) {
@@ -104,6 +89,7 @@ int exportAnnotations(const ExportArguments& arguments, ProjectFile& project) {
     const ExportOptions options = checkedOptions(arguments, labels.about, sequence.path);
     return untilStopped([&](const std::stop_token& stop) {
         tellExport(writeLabels(labels, arguments.out, arguments.format, options, stop), labels.about.notes);
+        return exit_ok;  // of what is stopped too late all is written
     });
 }
 
@@ -136,8 +122,11 @@ int exportRun(const ExportArguments& arguments, ProjectFile& project) {
         const auto start = startOf(arguments.start);
         const auto video = openVideoFor(arguments.format, run, open, stop);
         addWorld(labels, arguments.format, project, run, video.get(), start, stop);
-        if (as_video) return exportVmti(arguments, run, labels, *video, stop);
-        tellExport(writeLabels(labels, arguments.out, arguments.format, options, stop), labels.about.notes);
+        if (as_video)
+            exportVmti(arguments, run, labels, *video, stop);
+        else
+            tellExport(writeLabels(labels, arguments.out, arguments.format, options, stop), labels.about.notes);
+        return exit_ok;
     });
 }
 

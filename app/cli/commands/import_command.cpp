@@ -93,6 +93,7 @@ SequenceRecord sequenceFor(ProjectFile& project, const ImportArguments& argument
     sequence.size = info.size;
     sequence.frame_count = info.frame_count;
     sequence.frame_rate_hz = info.frame_rate_hz;
+    sequence.rate_assumed = info.frame_rate_assumed;
     sequence.id = ensureSequence(project, sequence);
     return sequence;
 }

@@ -73,7 +73,8 @@ void printClock(const MetadataStream& stream, const MetadataTimeline* timeline) 
     if (first) std::printf("  Clock: %s to %s\n", utcText(*first).c_str(), utcText(*last).c_str());
     if (stream.without_time > 0) std::printf("  %d without a time\n", stream.without_time);
     if (stream.steps_back > 0 || stream.leaps > 0)
-        std::printf("  Clock goes back %d×, leaps ahead by more than 10 s %d×\n", stream.steps_back, stream.leaps);
+        std::printf("  Clock goes back %d×, leaps ahead by more than 10 s %d×%s\n", stream.steps_back, stream.leaps,
+                    firstPlaceText(stream.first_jump).c_str());
     if (timeline != nullptr && timeline->placedByStamp() + timeline->placedByFile() > 0)
         std::printf("  Placed in the video: %d by their stamp, %d by where they lie in the file\n",
                     timeline->placedByStamp(), timeline->placedByFile());
@@ -177,55 +178,58 @@ std::unique_ptr<FrameSource> videoOf(const MetadataArguments& arguments, const s
     }
 }
 
-void tellMetadata(const MetadataArguments& arguments) {
+/// Answers the exit code.
+int tellMetadata(const MetadataArguments& arguments) {
     arguments.outputs.check({{arguments.csv, FileKind::text}, {arguments.json, FileKind::json}},
                             {arguments.files.begin(), arguments.files.end()});
-    const InterruptGuard interrupt;
-    std::string no_pictures;
-    const auto source = videoOf(arguments, interrupt.token(), no_pictures);
-    checkFrame(arguments, source.get());
-    ConsoleProgress progress("% read");
-    const auto share = [&](double done) { progress.showShare(done); };
-    const MetadataRecording recording = source ? readMetadata(source->info(), share, interrupt.token())
-                                               : readMetadata(arguments.file, share, interrupt.token());
-    const std::size_t chosen = chosenStream(recording, arguments);
-    std::optional<MetadataTimeline> timeline;
-    if (source && chosen < recording.streams.size())
-        timeline.emplace(recording.streams[chosen], source->pictureStamps(), timelineOptionsOf(source->info()));
+    return untilStopped([&](const std::stop_token& stop) {
+        std::string no_pictures;
+        const auto source = videoOf(arguments, stop, no_pictures);
+        checkFrame(arguments, source.get());
+        ConsoleProgress progress("% read");
+        const auto share = [&](double done) { progress.showShare(done); };
+        const MetadataRecording recording =
+            source ? readMetadata(source->info(), share, stop) : readMetadata(arguments.file, share, stop);
+        const std::size_t chosen = chosenStream(recording, arguments);
+        std::optional<MetadataTimeline> timeline;
+        if (source && chosen < recording.streams.size())
+            timeline.emplace(recording.streams[chosen], source->pictureStamps(), timelineOptionsOf(source->info()));
 
-    Json facts{{"file", arguments.file}, {"streams", Json::array()}, {"other_tracks", Json::array()}};
-    std::printf("%s\n", arguments.file.c_str());
-    if (!no_pictures.empty()) std::fprintf(stderr, "eyrie-cli: %s\n", no_pictures.c_str());
-    if (recording.streams.empty()) std::puts("No metadata (KLV)");
-    for (std::size_t i = 0; i < recording.streams.size(); ++i) {
-        const MetadataStream& stream = recording.streams[i];
-        std::printf("%s%s\n", trackName(stream, i).c_str(),
-                    i == chosen && recording.streams.size() > 1 ? ", the one that is used" : "");
-        printCounts(stream);
-        printClock(stream, i == chosen && timeline ? &*timeline : nullptr);
-        printTags(stream);
-        facts["streams"].push_back(jsonOf(stream));
-    }
-    for (const DataStream& track : recording.foreign_tracks) {
-        std::printf("Track %d (PID 0x%x): data that is not KLV (%s)\n", track.number, static_cast<unsigned>(track.id),
-                    track.codec.c_str());
-        facts["other_tracks"].push_back({{"track", track.number}, {"id", track.id}, {"codec", track.codec}});
-    }
-    facts["used_stream"] = recording.streams.empty() ? Json(nullptr) : Json(chosen);
-    if (timeline && !recording.streams[chosen].packets.empty()) {
-        const FrameIndex frame = arguments.frame ? *arguments.frame : tellingFrame(*timeline, *source);
-        const MetadataState state = timeline->at(source->timeOf(frame));
-        const GroundView view = groundViewOf(state, source->info().size);
-        printView(view, state, frame, *source);
-        facts["frame"] = {{"frame", frame}, {"ground", jsonOf(view)}, {"values", jsonOf(state)}};
-    }
-    if (!arguments.csv.empty()) {
-        if (recording.streams.empty())
-            throw Error(ErrorKind::input, arguments.file + ": there is no metadata to write into " + arguments.csv);
-        writeMetadataCsv(arguments.csv, recording.streams[chosen], timeline ? &*timeline : nullptr);
-    }
-    if (!arguments.json.empty())
-        writeFileAtomically(arguments.json, facts.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+        Json facts{{"file", arguments.file}, {"streams", Json::array()}, {"other_tracks", Json::array()}};
+        std::printf("%s\n", arguments.file.c_str());
+        if (!no_pictures.empty()) std::fprintf(stderr, "eyrie-cli: %s\n", no_pictures.c_str());
+        if (recording.streams.empty()) std::puts("No metadata (KLV)");
+        for (std::size_t i = 0; i < recording.streams.size(); ++i) {
+            const MetadataStream& stream = recording.streams[i];
+            std::printf("%s%s\n", trackName(stream, i).c_str(),
+                        i == chosen && recording.streams.size() > 1 ? ", the one that is used" : "");
+            printCounts(stream);
+            printClock(stream, i == chosen && timeline ? &*timeline : nullptr);
+            printTags(stream);
+            facts["streams"].push_back(jsonOf(stream));
+        }
+        for (const DataStream& track : recording.foreign_tracks) {
+            std::printf("Track %d (PID 0x%x): data that is not KLV (%s)\n", track.number,
+                        static_cast<unsigned>(track.id), track.codec.c_str());
+            facts["other_tracks"].push_back({{"track", track.number}, {"id", track.id}, {"codec", track.codec}});
+        }
+        facts["used_stream"] = recording.streams.empty() ? Json(nullptr) : Json(chosen);
+        if (timeline && !recording.streams[chosen].packets.empty()) {
+            const FrameIndex frame = arguments.frame ? *arguments.frame : tellingFrame(*timeline, *source);
+            const MetadataState state = timeline->at(source->timeOf(frame));
+            const GroundView view = groundViewOf(state, source->info().size);
+            printView(view, state, frame, *source);
+            facts["frame"] = {{"frame", frame}, {"ground", jsonOf(view)}, {"values", jsonOf(state)}};
+        }
+        if (!arguments.csv.empty()) {
+            if (recording.streams.empty())
+                throw Error(ErrorKind::input, arguments.file + ": there is no metadata to write into " + arguments.csv);
+            writeMetadataCsv(arguments.csv, recording.streams[chosen], timeline ? &*timeline : nullptr);
+        }
+        if (!arguments.json.empty())
+            writeFileAtomically(arguments.json, facts.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+        return exit_ok;
+    });
 }
 
 }  // namespace
@@ -252,8 +256,7 @@ void addMetadataCommand(CLI::App& app, int& exit_code) {
     command->callback([arguments, &exit_code] {
         const std::vector<std::filesystem::path> files(arguments->files.begin(), arguments->files.end());
         arguments->file = files.size() == 1 ? arguments->files.front() : partListName(files);
-        tellMetadata(*arguments);
-        exit_code = exit_ok;
+        exit_code = tellMetadata(*arguments);
     });
 }
 

@@ -60,7 +60,7 @@ std::string digestOf(const std::string& video, const std::stop_token& stop) {
 }
 
 /// Answers the exit code.
-int makeEventReport(const ReportArguments& arguments) {
+int makeEventReport(const ReportArguments& arguments, const std::stop_token& stop) {
     EventArguments events = arguments.events;
     // Who names events has judged what goes into the report.
     if (events.verdicts.empty() && arguments.numbers.empty())
@@ -69,27 +69,25 @@ int makeEventReport(const ReportArguments& arguments) {
     EventChoice choice = events.choice();
     choice.numbers = arguments.numbers;
     const auto start = startOf(arguments.start);
-    const InterruptGuard interrupt;
     ProjectFile project = openForReading(arguments.events.project);
     const RunRecord run = chosenRun(RunStore(project), arguments.events.project, arguments.events.run);
     arguments.outputs.check({{arguments.out, kindOfReport(arguments.out)}},
                             {arguments.events.project, events.zones, run.sequence.path});
     checkReportCanBeWritten(arguments.out);
-    const std::unique_ptr<FrameSource> pixels = pixelsOf(run, "pictures", interrupt.token());
-    ReviewReportInput input = gatherReviewReport(project, run, choice, pixels.get(), start, interrupt.token());
+    const std::unique_ptr<FrameSource> pixels = pixelsOf(run, "pictures", stop);
+    ReviewReportInput input = gatherReviewReport(project, run, choice, pixels.get(), start, stop);
     events.tellZones(input.reviewed);
     for (const int number : arguments.numbers) checkEventNumber(number, input.reviewed);
-    if (pixels && pixels->info().container != "scene")
-        input.video_digest = digestOf(run.sequence.path, interrupt.token());
+    if (pixels && pixels->info().container != "scene") input.video_digest = digestOf(run.sequence.path, stop);
     input.made_utc = nowUtc();
     ReportFile report;
     {
         ConsoleProgress progress("% of the pictures");
         report = makeReviewReport(
-            input, pixels.get(), [&](double share) { progress.showShare(share); }, interrupt.token());
+            input, pixels.get(), [&](double share) { progress.showShare(share); }, stop);
     }
-    if (interrupt.token().stop_requested()) return exit_stopped;
-    if (!writeReport(arguments.out, report, interrupt.token())) return exit_stopped;
+    if (stop.stop_requested()) return exit_stopped;
+    if (!writeReport(arguments.out, report, stop)) return exit_stopped;
     std::printf("Report: %s, %s, %zu of %zu events\n", arguments.out.c_str(), runText(run).c_str(),
                 countOfEvents(input), input.reviewed.events.size());
     if (countOfEvents(input) == 0 && !input.reviewed.events.empty())
@@ -176,7 +174,7 @@ void addReportCommand(CLI::App& app, int& exit_code) {
                                                             : " belongs to the report of events; add --events"));
         }
         if (arguments->of_events) {
-            exit_code = makeEventReport(*arguments);
+            exit_code = untilStopped([&](const std::stop_token& stop) { return makeEventReport(*arguments, stop); });
             return;
         }
         exit_code = makeReport(*arguments);

@@ -172,12 +172,12 @@ MayAddRun unlessBegunMeanwhile(const RunArguments& arguments, const FrameSource&
 }
 
 EndedRun runAnew(const RunArguments& arguments, FrameSource& source, const std::filesystem::path& project,
-                 const InterruptGuard& interrupt) {
+                 const std::stop_token& stop) {
     const FrameRange range = arguments.video.range();
     const ChainOptions options = arguments.preset.options();
     const VideoInfo& video = source.info();
     checkRange(range, video);
-    const ChosenScale chosen = scaleOf(source, range, options, arguments, interrupt.token());
+    const ChosenScale chosen = scaleOf(source, range, options, arguments, stop);
     RunRecord planned = plannedRun(video, chosen.scale, range, arguments.preset.preset);
     planned.scale_basis = chosen.basis;
     planned.name = arguments.name;
@@ -189,8 +189,7 @@ EndedRun runAnew(const RunArguments& arguments, FrameSource& source, const std::
     RunRecorder recorder(project, planned, options, &console, recording,
                          unlessBegunMeanwhile(arguments, source, project));
     EndedRun ended;
-    ended.summary =
-        ChainRun(options, chosen.scale).run(source, range, recorder, interrupt.token(), !arguments.annotated.empty());
+    ended.summary = ChainRun(options, chosen.scale).run(source, range, recorder, stop, !arguments.annotated.empty());
     takeRecord(ended, recorder);
     ended.has_video = console.finishVideo(ended.summary.outcome == RunOutcome::failed);
     return ended;
@@ -217,7 +216,7 @@ void tellWhereItGoesOn(const ResumedRun& resumed) {
 
 /// A finished run: there is nothing to do but the outputs.
 EndedRun asItIs(const RunArguments& arguments, const RunRecord& run, FrameSource& source,
-                const std::filesystem::path& project, const InterruptGuard& interrupt) {
+                const std::filesystem::path& project, const std::stop_token& stop) {
     if (!arguments.quiet) std::fprintf(stderr, "run %d is finished: nothing is left to do\n", run.id);
     EndedRun ended;
     ended.record = run;
@@ -230,39 +229,38 @@ EndedRun asItIs(const RunArguments& arguments, const RunRecord& run, FrameSource
         if (frame.state == RegistrationState::failed) ++ended.summary.unregistered_frames;
     }
     ConsoleObserver console(arguments, source.info());
-    console.drawStored(store, run.id, source, {run.first_frame, run.last_frame}, interrupt.token());
+    console.drawStored(store, run.id, source, {run.first_frame, run.last_frame}, stop);
     ended.has_video = console.finishVideo(false);
     return ended;
 }
 
 /// A new run, unless another program did it meanwhile.
 EndedRun begin(const RunArguments& arguments, FrameSource& source, const std::filesystem::path& project,
-               const InterruptGuard& interrupt) {
+               const std::stop_token& stop) {
     try {
-        return runAnew(arguments, source, project, interrupt);
+        return runAnew(arguments, source, project, stop);
     } catch (const FinishedMeanwhile& other) {
         if (!arguments.detections_csv.empty()) {
             ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
             needDetections(file, other.run);
         }
-        return asItIs(arguments, other.run, source, project, interrupt);
+        return asItIs(arguments, other.run, source, project, stop);
     }
 }
 
 EndedRun goOn(const RunArguments& arguments, const RunRecord& run, FrameSource& source,
-              const std::filesystem::path& project, const InterruptGuard& interrupt) {
+              const std::filesystem::path& project, const std::stop_token& stop) {
     const ResumedRun resumed = resumedRun(project, run.id, source);
     if (!arguments.quiet) tellWhereItGoesOn(resumed);
     ConsoleObserver console(arguments, source.info());
     RunRecorder recorder(project, resumed, &console);
     if (!arguments.annotated.empty()) {
         ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
-        console.drawStored(RunStore(file), run.id, source, {run.first_frame, resumed.last_done}, interrupt.token());
+        console.drawStored(RunStore(file), run.id, source, {run.first_frame, resumed.last_done}, stop);
     }
     EndedRun ended;
-    ended.summary =
-        ChainRun(resumed.options, run.scale)
-            .run(source, resumed.range(), recorder, interrupt.token(), !arguments.annotated.empty(), resumed.start);
+    ended.summary = ChainRun(resumed.options, run.scale)
+                        .run(source, resumed.range(), recorder, stop, !arguments.annotated.empty(), resumed.start);
     takeRecord(ended, recorder);
     ended.has_video = console.finishVideo(ended.summary.outcome == RunOutcome::failed);
     return ended;
@@ -310,29 +308,13 @@ int runLive(const RunArguments& arguments) {
     return runLiveCommand(live);
 }
 
-int run(const RunArguments& arguments) {
-    arguments.video.check();
-    arguments.preset.options();
-    if (!arguments.detections_csv.empty()) arguments.preset.recordingAll("--detections", 0, 0);
-    if (arguments.inputs.size() == 1 && isLiveAddress(arguments.inputs.front())) return runLive(arguments);
-    if (arguments.live_given)
-        throw Error(ErrorKind::parameter,
-                    "--seconds, --wait and --give-up are for live sources, and INPUT is not one; --frames says how "
-                    "much of a video is processed");
-    if (arguments.inputs.empty() && !(arguments.resume && !arguments.project.empty())) {
-        throw Error(
-            ErrorKind::parameter,
-            "INPUT is missing: name a video, a folder of images or a scene; with --resume, --project is enough");
-    }
-    if (arguments.run_id && !arguments.resume) {
-        throw Error(ErrorKind::parameter, "--run names the run to resume; add --resume, or leave it out");
-    }
-    const InterruptGuard interrupt;
+/// Answers the exit code.
+int runVideo(const RunArguments& arguments, const std::stop_token& stop) {
     const std::filesystem::path project = projectPath(arguments);
     std::unique_ptr<FrameSource> source;
     if (!arguments.inputs.empty()) {
         checkOutputs(arguments, project, arguments.inputs);
-        source = openInputs(arguments.inputs, arguments.video.frame_rate_hz.value_or(0), interrupt.token(), project);
+        source = openInputs(arguments.inputs, arguments.video.frame_rate_hz.value_or(0), stop, project);
     }
     ResumeChoice choice;
     if (arguments.resume) {
@@ -343,13 +325,13 @@ int run(const RunArguments& arguments) {
     }
     if (!source) {
         checkOutputs(arguments, project, {choice.run->sequence.path});
-        source = openInput(choice.run->sequence.path, 0, interrupt.token(), choice.run->scale.frame_rate_hz);
+        source = openInput(choice.run->sequence.path, 0, stop, choice.run->scale.frame_rate_hz);
     }
-    if (!keepEarlierState(project, interrupt.token())) return exit_stopped;
-    const auto [record, summary, has_video] = !choice.run ? begin(arguments, *source, project, interrupt)
+    if (!keepEarlierState(project, stop)) return exit_stopped;
+    const auto [record, summary, has_video] = !choice.run ? begin(arguments, *source, project, stop)
                                               : choice.run->state == RunState::finished
-                                                  ? asItIs(arguments, *choice.run, *source, project, interrupt)
-                                                  : goOn(arguments, *choice.run, *source, project, interrupt);
+                                                  ? asItIs(arguments, *choice.run, *source, project, stop)
+                                                  : goOn(arguments, *choice.run, *source, project, stop);
     ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
     const RunStore store(file);
     if (!arguments.tracks_csv.empty())
@@ -372,6 +354,26 @@ int run(const RunArguments& arguments) {
         std::fprintf(stderr, "stopped; eyrie-cli run --resume --project %s resumes it\n", project.c_str());
     }
     return summary.outcome == RunOutcome::stopped ? exit_stopped : exit_ok;
+}
+
+int run(const RunArguments& arguments) {
+    arguments.video.check();
+    arguments.preset.options();
+    if (!arguments.detections_csv.empty()) arguments.preset.recordingAll("--detections", 0, 0);
+    if (arguments.inputs.size() == 1 && isLiveAddress(arguments.inputs.front())) return runLive(arguments);
+    if (arguments.live_given)
+        throw Error(ErrorKind::parameter,
+                    "--seconds, --wait and --give-up are for live sources, and INPUT is not one; --frames says how "
+                    "much of a video is processed");
+    if (arguments.inputs.empty() && !(arguments.resume && !arguments.project.empty())) {
+        throw Error(
+            ErrorKind::parameter,
+            "INPUT is missing: name a video, a folder of images or a scene; with --resume, --project is enough");
+    }
+    if (arguments.run_id && !arguments.resume) {
+        throw Error(ErrorKind::parameter, "--run names the run to resume; add --resume, or leave it out");
+    }
+    return untilStopped([&](const std::stop_token& stop) { return runVideo(arguments, stop); });
 }
 
 }  // namespace

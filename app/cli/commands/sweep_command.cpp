@@ -1,6 +1,5 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <memory>
 
@@ -9,6 +8,7 @@
 #include "cli/arguments/output_arguments.h"
 #include "cli/arguments/preset_arguments.h"
 #include "cli/arguments/sweep_arguments.h"
+#include "cli/batch/batch_inputs.h"
 #include "cli/command.h"
 #include "cli/common_options.h"
 #include "cli/interrupt.h"
@@ -42,19 +42,12 @@ struct SweepArguments {
     bool quiet = false;
 };
 
-/// The positions to do, from "3/8".
+/// The positions to do, of "3/8" those of that part.
 std::vector<int> chosenPositions(const SweepPlan& plan, const std::string& shard) {
     const std::vector<int> order = workOrder(plan);
     if (shard.empty()) return order;
-    int number = 0;
-    int count = 0;
-    const char* end = shard.data() + shard.size();
-    const auto first = std::from_chars(shard.data(), end, number);
-    const bool slash = first.ec == std::errc() && first.ptr != end && *first.ptr == '/';
-    const auto second = slash ? std::from_chars(first.ptr + 1, end, count) : first;
-    if (!slash || second.ec != std::errc() || second.ptr != end)
-        throw Error(ErrorKind::parameter, "--shard " + shard + ": expected I/N with I from 1 to N, e.g. 3/8");
-    return shardOf(order, number, count);
+    const Shard chosen = shardFrom(shard);
+    return shardOf(order, chosen.part, chosen.parts);
 }
 
 /// Parameters that all points share. Of stored runs they are those of the first, unless a preset is named.
@@ -71,8 +64,7 @@ SweepCriterion criterionOf(const SweepArguments& arguments, const SweepPlan& pla
     SweepCriterion criterion = usualCriterion(plan);
     criterion.key = measureText(arguments.criterion).key;
     if (!arguments.of.empty()) criterion.tracks = arguments.of == "tracks";
-    const std::string group = measureText(criterion.key).group;
-    if (group == "tracking" || group == "identity") criterion.tracks = true;
+    if (isOfTracks(measureText(criterion.key).group)) criterion.tracks = true;
     return criterion;
 }
 
@@ -163,30 +155,34 @@ int sweep(const SweepArguments& arguments) {
     plan.border = evaluation.options.border;
     chosenPositions(plan, arguments.shard);  // shows a wrong shard before anything is opened
 
-    const InterruptGuard interrupt;
-    OpenedClips opened = runs.empty() ? openSequences(arguments.sources, base, arguments.out, interrupt.token())
-                                      : openStoredRuns(arguments.sources, std::move(runs), base);
-    plan.clips = opened.clips;
-    check(plan);
-    const std::string& out = arguments.out.empty() ? arguments.sources.project : arguments.out;
-    if (!keepEarlierState(out, interrupt.token())) return exit_stopped;
-    ProjectFile project = ProjectFile::openOrCreate(out);
-    const bool goes_on = arguments.resume || !arguments.shard.empty();
-    const int id = beginSweep(project, plan, arguments.name, goes_on ? SweepFound::resumed : SweepFound::refused);
-    const bool whole = runMissing(arguments, plan, opened.inputs, chosenPositions(plan, arguments.shard), project, id,
-                                  interrupt.token());
+    return untilStopped([&](const std::stop_token& stop) {
+        OpenedClips opened = runs.empty() ? openSequences(arguments.sources, base, arguments.out, stop)
+                                          : openStoredRuns(arguments.sources, std::move(runs), base);
+        plan.clips = opened.clips;
+        check(plan);
+        const std::string& out = arguments.out.empty() ? arguments.sources.project : arguments.out;
+        if (!keepEarlierState(out, stop)) return exit_stopped;
+        ProjectFile project = ProjectFile::openOrCreate(out);
+        const bool goes_on = arguments.resume || !arguments.shard.empty();
+        const int id = beginSweep(project, plan, arguments.name, goes_on ? SweepFound::resumed : SweepFound::refused);
+        const bool whole =
+            runMissing(arguments, plan, opened.inputs, chosenPositions(plan, arguments.shard), project, id, stop);
 
-    const SweepTable table = readSweep(project, id);
-    const SweepCriterion criterion = criterionOf(arguments, plan);
-    if (!arguments.csv.empty()) writeFileAtomically(arguments.csv, csvText(table));
-    if (!arguments.save_preset.empty()) savePreset(arguments.save_preset, table, criterion);
-    std::fputs((arguments.json ? jsonText(table, criterion) : tableText(table, criterion)).c_str(), stdout);
-    for (const std::string& remark : opened.remarks) std::fprintf(stderr, "note: %s\n", remark.c_str());
-    if (!whole) {
-        std::fprintf(stderr, "stopped; %s keeps the finished points, the same command with --resume does the rest\n",
-                     project.path().string().c_str());
-    }
-    return whole ? exit_ok : exit_stopped;
+        const SweepTable table = readSweep(project, id);
+        const SweepCriterion criterion = criterionOf(arguments, plan);
+        if (!arguments.csv.empty()) writeFileAtomically(arguments.csv, csvText(table));
+        // Stopped before its first point it has no best one.
+        if (!arguments.save_preset.empty() && (whole || bestPoint(table, criterion)))
+            savePreset(arguments.save_preset, table, criterion);
+        std::fputs((arguments.json ? jsonText(table, criterion) : tableText(table, criterion)).c_str(), stdout);
+        for (const std::string& remark : opened.remarks) std::fprintf(stderr, "note: %s\n", remark.c_str());
+        if (!whole) {
+            std::fprintf(stderr,
+                         "stopped; %s keeps the finished points, the same command with --resume does the rest\n",
+                         project.path().string().c_str());
+        }
+        return whole ? exit_ok : exit_stopped;
+    });
 }
 
 void addBest(CLI::App& command, std::string& criterion) {
@@ -228,7 +224,8 @@ void addSweepCommand(CLI::App& app, int& exit_code) {
     arguments->preset.addTo(*command);
     command->add_option("--out", arguments->out, "Project file for the points; made when it does not exist");
     command->add_option("--name", arguments->name, "A name for the sweep");
-    command->add_option("--shard", arguments->shard, "Do only part I of N, written I/N; eyrie-cli merge joins them");
+    command->add_option("--shard", arguments->shard,
+                        "Do only one part of the points, PART/PARTS, e.g. 2/8; eyrie-cli merge joins them");
     command->add_flag("--resume", arguments->resume, "Resume a sweep that was stopped");
     command->add_flag("--yes", arguments->yes, "Start even with more than 10000 points");
     addBest(*command, arguments->criterion);

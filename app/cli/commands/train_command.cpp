@@ -115,49 +115,51 @@ int run(const TrainArguments& arguments) {
         throw Error(ErrorKind::parameter, "--images and --ground-truth: each needs the other, in the same order");
     }
     arguments.outputs.check({{arguments.out, FileKind::model}}, inputsOf(arguments));
-    const InterruptGuard interrupt;
-    SampleSet samples = readSampleFolders(arguments.samples);
-    const std::vector<LabelledImage> images = labelledImages(arguments, options, interrupt.token());
-    SampleSet cut = samplesFromImages(images, static_cast<std::uint64_t>(options.seed), options.cutting());
-    std::move(cut.begin(), cut.end(), std::back_inserter(samples));
-    if (interrupt.token().stop_requested()) return exit_stopped;
-    TrainingRecord record;
-    record.data = describeSources(samples) + arguments.note;
-    record.utc_time = nowUtc();
-    TrainingOptions described = options;
-    for (const Parameter& parameter : listParameters(describeOf(described))) {
-        record.settings += parameter.name + " = " + parameter.value + "\n";
-    }
-    std::printf("%s", describeSources(samples).c_str());
-    std::fflush(stdout);
+    return untilStopped([&](const std::stop_token& stop) {
+        SampleSet samples = readSampleFolders(arguments.samples);
+        const std::vector<LabelledImage> images = labelledImages(arguments, options, stop);
+        SampleSet cut = samplesFromImages(images, static_cast<std::uint64_t>(options.seed), options.cutting());
+        std::move(cut.begin(), cut.end(), std::back_inserter(samples));
+        if (stop.stop_requested()) return exit_stopped;
+        TrainingRecord record;
+        record.data = describeSources(samples) + arguments.note;
+        record.utc_time = nowUtc();
+        TrainingOptions described = options;
+        for (const Parameter& parameter : listParameters(describeOf(described))) {
+            record.settings += parameter.name + " = " + parameter.value + "\n";
+        }
+        std::printf("%s", describeSources(samples).c_str());
+        std::fflush(stdout);
 
-    PhaseProgress progress;
-    TrainingWatch watch;
-    watch.stop = interrupt.token();
-    if (!arguments.quiet) watch.progress = [&](const TrainingProgress& step) { progress.show(step); };
-    HardNegativeSource more;
-    std::uint64_t round = 0;
-    if (!images.empty()) {
-        more = [&](const VehicleModel& model, int wanted) {
-            return mineBackground(model, images, typicalVehicle(), wanted,
-                                  static_cast<std::uint64_t>(options.seed) + 1000 * ++round, watch);
-        };
-    }
-    const auto model = trainModel(samples, options, record, watch, more);
-    progress.end();
-    if (!model) {
-        std::fprintf(stderr, "stopped; no model was written\n");
-        return exit_stopped;
-    }
-    saveModel(*model, arguments.out);
-    std::error_code unknown;
-    const std::uintmax_t size = std::filesystem::file_size(arguments.out, unknown);
-    std::printf(
-        "%s + %s, %d features, trained on %d windows of vehicles (with mirrored and varied ones) and %d others: "
-        "%s, %.0f kB\n",
-        nameOf(options.descriptor), nameOf(options.classifier), model->descriptor->dimension(), model->record.vehicles,
-        model->record.others, arguments.out.c_str(), unknown ? 0.0 : static_cast<double>(size) / 1000);
-    return exit_ok;
+        PhaseProgress progress;
+        TrainingWatch watch;
+        watch.stop = stop;
+        if (!arguments.quiet) watch.progress = [&](const TrainingProgress& step) { progress.show(step); };
+        HardNegativeSource more;
+        std::uint64_t round = 0;
+        if (!images.empty()) {
+            more = [&](const VehicleModel& model, int wanted) {
+                return mineBackground(model, images, typicalVehicle(), wanted,
+                                      static_cast<std::uint64_t>(options.seed) + 1000 * ++round, watch);
+            };
+        }
+        const auto model = trainModel(samples, options, record, watch, more);
+        progress.end();
+        if (!model) {
+            std::fprintf(stderr, "stopped; no model was written\n");
+            return exit_stopped;
+        }
+        saveModel(*model, arguments.out);
+        std::error_code unknown;
+        const std::uintmax_t size = std::filesystem::file_size(arguments.out, unknown);
+        std::printf(
+            "%s + %s, %d features, trained on %d windows of vehicles (with mirrored and varied ones) and %d others: "
+            "%s, %.0f kB\n",
+            nameOf(options.descriptor), nameOf(options.classifier), model->descriptor->dimension(),
+            model->record.vehicles, model->record.others, arguments.out.c_str(),
+            unknown ? 0.0 : static_cast<double>(size) / 1000);
+        return exit_ok;
+    });
 }
 
 template <class Kinds>

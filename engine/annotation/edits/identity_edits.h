@@ -51,6 +51,7 @@ enum class GapFilling {
 IdentityChange joinInTime(const LabelledObject& kept, const LabelledObject& other, const CameraMotion& camera,
                           GapFilling gap = GapFilling::interpolate);
 
+/// Which box counts in frames that both of two fused objects have.
 enum class FuseRule {
     prefer_kept,  ///< where both exist the box of `kept` counts
     mean          ///< where both exist the mean of both

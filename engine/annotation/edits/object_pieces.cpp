@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "annotation/keyframes/dense_boxes.h"
+
 namespace eyrie {
 namespace {
 
@@ -62,15 +64,15 @@ LabelledObject pieceOf(const LabelledObject& object, FrameIndex first, FrameInde
     }
     piece.last_frame = last;
     // Only the path near a cut can differ.
-    constexpr std::size_t kReach = 3;
     std::vector<FrameBox> boxes;
     const std::size_t count = piece.keyframes.size();
     if (first > firstFrameOf(object)) {
-        boxes = shownBoxes(object, first, count > kReach ? piece.keyframes[kReach].frame : last, camera);
+        boxes =
+            shownBoxes(object, first, count > kKeyframeReach ? piece.keyframes[kKeyframeReach].frame : last, camera);
     }
     // What no longer stands so long at its end would not brake as it did.
     if (moves_on || last < object.last_frame) {
-        const FrameIndex from = count > kReach ? piece.keyframes[count - 1 - kReach].frame : first;
+        const FrameIndex from = count > kKeyframeReach ? piece.keyframes[count - 1 - kKeyframeReach].frame : first;
         const auto tail =
             shownBoxes(object, boxes.empty() ? from : std::max(from, boxes.back().frame + 1), last, camera);
         boxes.insert(boxes.end(), tail.begin(), tail.end());
@@ -99,11 +101,11 @@ LabelledObject joined(const LabelledObject& earlier, const LabelledObject& later
     }
     result.keyframes.insert(result.keyframes.end(), later.keyframes.begin(), later.keyframes.end());
     std::vector<FrameBox> boxes;
-    constexpr std::size_t kReach = 3;
     const std::size_t a = earlier.keyframes.size();
-    boxes = shownBoxes(earlier, a > kReach ? earlier.keyframes[a - kReach].frame : firstFrameOf(earlier), end, camera);
+    boxes = shownBoxes(
+        earlier, a > kKeyframeReach ? earlier.keyframes[a - kKeyframeReach].frame : firstFrameOf(earlier), end, camera);
     const FrameIndex until =
-        later.keyframes.size() > kReach ? later.keyframes[kReach].frame : later.keyframes.back().frame;
+        later.keyframes.size() > kKeyframeReach ? later.keyframes[kKeyframeReach].frame : later.keyframes.back().frame;
     const auto tail = shownBoxes(later, firstFrameOf(later), until, camera);
     boxes.insert(boxes.end(), tail.begin(), tail.end());
     return kept(std::move(result), boxes, camera);

@@ -8,6 +8,9 @@
 
 namespace eyrie {
 
+/// Keyframes to either side of one up to which it has an influence on what is interpolated.
+inline constexpr std::size_t kKeyframeReach = 3;
+
 /// The dense boxes that an interpolation must keep to, in ascending frames, ready to be compared again and again.
 class DenseBoxes {
  public:

@@ -77,9 +77,11 @@ class Reducer {
     /// The dense boxes that keyframe i can reach: three pieces to either side.
     std::pair<std::size_t, std::size_t> reachOf(std::size_t keyframe) const {
         const auto& keyframes = object_.keyframes;
-        const std::size_t first = keyframe > kReach ? boxes_.from(keyframes[keyframe - kReach].frame) : 0;
-        const std::size_t last =
-            keyframe + kReach < keyframes.size() ? boxes_.from(keyframes[keyframe + kReach].frame) : boxes_.size();
+        const std::size_t first =
+            keyframe > kKeyframeReach ? boxes_.from(keyframes[keyframe - kKeyframeReach].frame) : 0;
+        const std::size_t last = keyframe + kKeyframeReach < keyframes.size()
+                                     ? boxes_.from(keyframes[keyframe + kKeyframeReach].frame)
+                                     : boxes_.size();
         return {first, last};
     }
 
@@ -201,7 +203,6 @@ class Reducer {
         return places;
     }
 
-    static constexpr std::size_t kReach = 3;  ///< keyframes to either side up to which one has an influence
     LabelledObject object_;
     DenseBoxes boxes_;
     const CameraMotion& camera_;

@@ -37,11 +37,10 @@ class Thinner {
 
     /// Boxes that the keyframes [low, high] can change.
     Range reachOf(std::size_t low, std::size_t high) const {
-        constexpr std::size_t kReach = 3;
         const Keyframes& keyframes = object_.keyframes;
         Range range{0, boxes_.size(), 1};
-        if (low > kReach) range.first = boxes_.from(keyframes[low - kReach].frame);
-        if (high + kReach < keyframes.size()) range.last = boxes_.from(keyframes[high + kReach].frame);
+        if (low > kKeyframeReach) range.first = boxes_.from(keyframes[low - kKeyframeReach].frame);
+        if (high + kKeyframeReach < keyframes.size()) range.last = boxes_.from(keyframes[high + kKeyframeReach].frame);
         return range;
     }
 

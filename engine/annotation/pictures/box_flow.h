@@ -14,6 +14,7 @@ struct BoxFlow {
     int agreeing = 0;  ///< those that move together
 };
 
+/// Limits of the corners by which a box is moved from one picture to the next.
 struct BoxFlowOptions {
     int max_corners = 40;
     double max_forward_backward_px = 0.7;

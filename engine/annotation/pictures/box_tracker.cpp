@@ -208,7 +208,7 @@ std::string reasonOf(FollowEnd end, FrameIndex frame, double certainty) {
     std::snprintf(share, sizeof share, " (%.2f)", certainty);
     switch (end) {
         case FollowEnd::end_of_range:
-            return "followed to frame " + std::to_string(frame);
+            return "reached frame " + std::to_string(frame);
         case FollowEnd::left_image:
             return where + "it leaves the image";
         case FollowEnd::few_corners:

@@ -29,6 +29,7 @@ struct FollowedBox {
     double certainty = 0;  ///< 0 … 1
 };
 
+/// How far a box could be followed, and why no farther.
 struct FollowResult {
     std::vector<FollowedBox> boxes;  ///< in the order followed, without the starting frame; only those that are sure
     FollowEnd end = FollowEnd::end_of_range;
@@ -36,6 +37,7 @@ struct FollowResult {
     std::string reason;        ///< for people: "stopped at frame 212: it does not look like the object any more (0.41)"
 };
 
+/// When following a box ends because it is no longer sure.
 struct FollowOptions {
     double min_certainty = 0.45;
     double min_start_likeness = 0.3;  ///< correlation with how it looked at the start, −1 … 1

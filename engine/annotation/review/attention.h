@@ -22,6 +22,7 @@ enum class AttentionKind {
 };
 const char* nameOf(AttentionKind kind);
 
+/// A frame of an object that a person should look at.
 struct AttentionItem {
     ObjectId object = 0;
     FrameIndex frame = 0;
@@ -29,6 +30,7 @@ struct AttentionItem {
     std::string text;  ///< for people: "jumps: 14.2 px/frame, 3.1 before"
 };
 
+/// What of labels is worth a look.
 struct AttentionOptions {
     cv::Size image;                ///< px
     int frame_count = 0;           ///< of the video

@@ -18,6 +18,7 @@ struct JoinSuggestion {
     bool over_ground = true;  ///< false: the frames are not connected, the distance is measured in the image
 };
 
+/// How far apart two objects may be that are suggested to be one.
 struct SuggestionOptions {
     int max_gap = 250;             ///< frames
     double max_distance_px = 200;  ///< at least; grows by `px_per_gap_frame` for each frame of the gap

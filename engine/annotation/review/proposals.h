@@ -22,6 +22,7 @@ struct DenseTrack {
     std::vector<FrameBox> boxes;
 };
 
+/// Which tracks are offered as objects, and with how many keyframes.
 struct ProposalOptions {
     ReductionOptions reduction;
     double tolerance_of_length = 0.12;  ///< of the track's median length, where that is more than the reduction's own

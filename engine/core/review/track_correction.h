@@ -11,6 +11,7 @@
 /// here names a track. A box in a frame is a place on the ground at a time, in every run of the same video.
 namespace eyrie {
 
+/// What a person says of tracks.
 enum class CorrectionKind {
     add,    ///< a vehicle that has no track
     join,   ///< two tracks are of one vehicle
@@ -28,6 +29,7 @@ struct Sighting {
     bool operator==(const Sighting& other) const;
 };
 
+/// One thing that a person says of tracks, in terms of places and frames: it holds for any run.
 struct TrackCorrection {
     int id = 0;  ///< within a project, from 1; never used again. Those of lower numbers were made, and hold, before
     CorrectionKind kind = CorrectionKind::add;

@@ -40,6 +40,7 @@ struct ReviewSubject {
     bool operator==(const ReviewSubject&) const = default;
 };
 
+/// What a person said of an event or of a moment.
 struct Verdict {
     int id = 0;  ///< within a project, from 1; never used again
     ReviewSubject subject;

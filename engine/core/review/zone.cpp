@@ -49,13 +49,13 @@ std::string faultOf(const Zone& zone) {
         for (std::size_t i = 1; i < p.size(); ++i) length += std::hypot(p[i].x - p[i - 1].x, p[i].y - p[i - 1].y);
         const std::string what = nameOf(zone.shape);
         if (p.size() < 2) return (zone.shape == ZoneShape::arrow ? "an " : "a ") + what + " needs two points or more";
-        return length < kShortestLine ? "the " + what + " has no length" : "";
+        return length < kShortestLine ? "the " + what + " has no length: draw its points apart" : "";
     }
     if (p.size() < 3) return "an area needs three points or more";
-    if (crossesItself(p)) return "the outline crosses itself";
+    if (crossesItself(p)) return "the outline crosses itself: give its corners in their order around the area";
     double area = 0;
     for (std::size_t i = 1; i + 1 < p.size(); ++i) area += side(p[0], p[i], p[i + 1]) / 2;
-    return std::abs(area) < kSmallestArea ? "the zone has no area" : "";
+    return std::abs(area) < kSmallestArea ? "the zone has no area: its corners must not be on one line" : "";
 }
 
 const char* nameOf(ZoneShape shape) {

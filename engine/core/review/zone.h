@@ -9,6 +9,7 @@
 
 namespace eyrie {
 
+/// What a zone is, and so what can happen at it.
 enum class ZoneShape {
     area,  ///< it is entered and left
     line,  ///< it is crossed

@@ -16,7 +16,7 @@ bool carCanBeFound(double gsd_m_per_px) {
 
 std::string gsdText(double value) {
     char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
+    std::snprintf(text, sizeof text, value < 1000 ? "%.3g" : "%.0f", value);  // no powers of ten
     return text;
 }
 

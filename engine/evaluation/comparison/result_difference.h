@@ -7,6 +7,7 @@
 
 namespace eyrie {
 
+/// In what two results differ.
 enum class DifferenceKind {
     only_first,   ///< an object that only the first result has
     only_second,  ///< … only the second

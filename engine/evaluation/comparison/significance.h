@@ -20,6 +20,7 @@ PairedTTest pairedTTest(const std::vector<double>& a, const std::vector<double>&
 /// Chance that |T| exceeds |t| for Student's distribution; `degrees_of_freedom` > 0.
 double studentTwoSided(double t, double degrees_of_freedom);
 
+/// How an interval is estimated by resampling.
 struct BootstrapOptions {
     int resamples = 2000;
     double confidence = 0.95;  ///< in (0, 1)

@@ -72,7 +72,8 @@ void listTracking(List& list, const Measures& m) {
                of(t, &TrackingMeasures::fragments), Better::lower);
     list.real("initialisation_frames", "TID, frames", "mean frames of an object until it is first found",
               of(t, &TrackingMeasures::initialisation_frames), 1, Better::lower);
-    list.count("gt_tracks", "true tracks", "tracks of the ground truth", of(t, &TrackingMeasures::truth_tracks));
+    list.count("gt_tracks", "ground truth tracks", "tracks of the ground truth",
+               of(t, &TrackingMeasures::truth_tracks));
     list.count("result_tracks", "result tracks", "tracks of the result", of(t, &TrackingMeasures::result_tracks));
     list.begin("identity");
     list.real("idf1", "IDF1", "boxes under the right identity", of(m.identity, &IdentityMeasures::idf1));

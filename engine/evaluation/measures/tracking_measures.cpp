@@ -68,9 +68,19 @@ TrackTallies tallyTracks(const EvaluationInput& input, const std::vector<FrameMa
     return tallies;
 }
 
+TrackedLife trackedLife(const TruthTrackTally& object, Convention convention) {
+    const double share = static_cast<double>(object.matched) / std::max(object.frames, 1);
+    // TrackEval counts 80 % itself as partially tracked.
+    if (convention == Convention::thesis ? share >= kMostlyTracked : share > kMostlyTracked) return TrackedLife::mostly;
+    return share < kMostlyLost ? TrackedLife::mostly_lost : TrackedLife::partially;
+}
+
+int fragmentsOf(const TruthTrackTally& object, Convention convention) {
+    return convention == Convention::thesis ? object.fragments : std::max(object.tracked_runs - 1, 0);
+}
+
 TrackingMeasures trackingMeasures(const TrackTallies& tallies, const DetectionMeasures& detection,
                                   const EvaluationOptions& options) {
-    const bool thesis = options.convention == Convention::thesis;
     TrackingMeasures m;
     m.truth_tracks = static_cast<int>(tallies.truth.size());
     m.result_tracks = static_cast<int>(tallies.results.size());
@@ -78,14 +88,17 @@ TrackingMeasures trackingMeasures(const TrackTallies& tallies, const DetectionMe
     for (const TruthTrackTally& tally : tallies.truth) {
         until_found += tally.until_found;
         m.id_switches += tally.switches;
-        m.fragments += thesis ? tally.fragments : std::max(tally.tracked_runs - 1, 0);
-        const double share = static_cast<double>(tally.matched) / std::max(tally.frames, 1);
-        if (thesis ? share >= 0.8 : share > 0.8) {
-            ++m.mostly_tracked;
-        } else if (share < 0.2) {
-            ++m.mostly_lost;
-        } else {
-            ++m.partially_tracked;
+        m.fragments += fragmentsOf(tally, options.convention);
+        switch (trackedLife(tally, options.convention)) {
+            case TrackedLife::mostly:
+                ++m.mostly_tracked;
+                break;
+            case TrackedLife::partially:
+                ++m.partially_tracked;
+                break;
+            case TrackedLife::mostly_lost:
+                ++m.mostly_lost;
+                break;
         }
     }
     m.initialisation_frames = until_found / std::max(m.truth_tracks, 1);

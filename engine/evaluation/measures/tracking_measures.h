@@ -19,6 +19,14 @@ struct TruthTrackTally {
     double overlap_sum = 0;
 };
 
+/// How much of an object's life was found: MT, PT, MLT.
+enum class TrackedLife { mostly, partially, mostly_lost };
+inline constexpr double kMostlyTracked = 0.8;  ///< share of its frames from which on it is
+inline constexpr double kMostlyLost = 0.2;     ///< below
+TrackedLife trackedLife(const TruthTrackTally& object, Convention convention);
+/// The fragments of its track, as the convention counts them.
+int fragmentsOf(const TruthTrackTally& object, Convention convention);
+
 /// Matches and errors of one result track.
 struct ResultTrackTally {
     int id = 0;
@@ -37,10 +45,10 @@ struct TrackingMeasures {
     double mota = 0;  ///< eq. 7.9 with c_s(x) = x
     double motp = 0;  ///< mean overlap of the matched pairs; eq. 7.10 prints "1 −"
     int id_switches = 0;
-    int mostly_tracked = 0;  ///< at least (trackeval: more than) 80 % of the frames matched
+    int mostly_tracked = 0;  ///< see trackedLife()
     int partially_tracked = 0;
-    int mostly_lost = 0;  ///< MLT: less than 20 %
-    int fragments = 0;    ///< FM; see Convention
+    int mostly_lost = 0;
+    int fragments = 0;  ///< FM; see fragmentsOf()
     /// TID, track initialisation duration (Caesar et al., CVPR 2020), in frames: how long an object counts on average
     /// before it is found for the first time; one that is never found counts with all its frames.
     double initialisation_frames = 0;

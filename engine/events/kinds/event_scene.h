@@ -11,6 +11,7 @@
 /// What the searches for the kinds of events share; inside of this room only.
 namespace eyrie {
 
+/// What kinds of events are searched in: paths on the ground, in metres. All must outlive the search.
 struct EventScene {
     const GroundStretches& ground;
     const std::vector<GroundPath>& paths;

@@ -17,6 +17,7 @@ enum class CarryFault {
 /// For people: "no such event near".
 const char* nameOf(CarryFault fault);
 
+/// A verdict that belongs to no event of a run, and why.
 struct LeftVerdict {
     int verdict = 0;  ///< its id
     CarryFault fault = CarryFault::no_event;

@@ -39,4 +39,9 @@ void tellWorld(const TrackWorld* world, ExportReport& report) {
     if (!world->place && !world->no_place.empty()) report.notes.push_back("no places on the earth: " + world->no_place);
 }
 
+void tellAssumedRate(ExportReport& report) {
+    report.notes.push_back("times count " + std::to_string(kAssumedRate_hz) +
+                           " frames a second, as no frame rate is known");
+}
+
 }  // namespace eyrie

@@ -33,5 +33,7 @@ class PlacedTracks {
 
 /// Notes where times and places of the world come from, or why they are not known. `world` may be null.
 void tellWorld(const TrackWorld* world, ExportReport& report);
+/// Notes that times are those of kAssumedRate_hz.
+void tellAssumedRate(ExportReport& report);
 
 }  // namespace eyrie

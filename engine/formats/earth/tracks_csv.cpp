@@ -49,7 +49,7 @@ std::string rowOf(const LabelBox& box, const TrackWorld* world, double rate) {
 void writeTracksCsv(const LabelStream& labels, const std::filesystem::path& path, const ExportOptions&,
                     ExportReport& report) {
     const TrackWorld* world = labels.about.world.get();
-    const double rate = labels.about.frame_rate_hz.value_or(25);
+    const double rate = labels.about.frame_rate_hz.value_or(kAssumedRate_hz);
     AtomicFileWriter file(path);
     file.write(
         "track,frame,seconds,utc,x_px,y_px,length_px,width_px,heading_deg,ground,ground_x_m,ground_y_m,latitude,"
@@ -63,8 +63,7 @@ void writeTracksCsv(const LabelStream& labels, const std::filesystem::path& path
     tellWorld(world, report);
     if (world == nullptr || !world->ground)
         report.notes.push_back("columns in metres are empty: the scale is not known; run again with --gsd");
-    if (world == nullptr && !labels.about.frame_rate_hz)
-        report.notes.push_back("times count 25 frames a second, as no frame rate is known");
+    if (world == nullptr && !labels.about.frame_rate_hz) tellAssumedRate(report);
 }
 
 }  // namespace

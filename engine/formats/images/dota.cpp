@@ -45,13 +45,7 @@ LabelFile readDota(const std::filesystem::path& path, const ImportOptions&) {
             labels.boxes[text.frame].push_back(std::move(record));
         }
     }
-    if (departures > 0)
-        labels.notes.push_back(counted(departures, "outline is", "outlines are") +
-                               " no rectangle; the best fitting one was taken");
-    if (across > 0) {
-        labels.notes.push_back(counted(across, "box is", "boxes are") +
-                               " wider than long: the first corner may not be the front left one");
-    }
+    tellFourCorners(departures, across, labels.notes);
     return labels;
 }
 

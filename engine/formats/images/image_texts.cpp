@@ -175,6 +175,15 @@ std::string imageStem(const LabelFile& labels, FrameIndex frame) {
     return plain ? stem : numberedName(frame);
 }
 
+void tellFourCorners(int departures, int across, std::vector<std::string>& notes) {
+    if (departures > 0)
+        notes.push_back(counted(departures, "outline is", "outlines are") +
+                        " no rectangle; the best fitting one was taken");
+    if (across > 0)
+        notes.push_back(counted(across, "box is", "boxes are") +
+                        " wider than long: the first corner may not be the front left one");
+}
+
 OrientedBox boxByFourCorners(const TextLine& line, std::size_t first, cv::Point2d scale, int& departures) {
     std::array<cv::Point2d, 4> corners;
     for (std::size_t i = 0; i < 4; ++i) {

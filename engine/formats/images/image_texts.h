@@ -35,6 +35,8 @@ std::string imageStem(const LabelFile& labels, FrameIndex frame);
 /// rectangle within 2 px or a tenth of their size; of those the best fitting of two rectangles is taken, the mean one
 /// and the smallest around them.
 OrientedBox boxByFourCorners(const TextLine& line, std::size_t first, cv::Point2d scale, int& departures);
+/// Notes how many quadrangles were no rectangles, and how many boxes by corners are wider than long.
+void tellFourCorners(int departures, int across, std::vector<std::string>& notes);
 /// The corners front left, front right, rear right, rear left with pixels from 0; cut at the border of `clip`.
 std::array<cv::Point2d, 4> cornersToWrite(const OrientedBox& box, std::optional<cv::Size> clip, int& cut);
 

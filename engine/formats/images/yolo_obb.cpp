@@ -136,13 +136,7 @@ LabelFile readYolo(const fs::path& path, const ImportOptions& options) {
         labels.notes.push_back(counted(static_cast<int>(unnamed.size()), "class has", "classes have") +
                                " no name in a data.yaml; map \"class N\" to yours");
     }
-    if (departures > 0)
-        labels.notes.push_back(counted(departures, "outline is", "outlines are") +
-                               " no rectangle; the best fitting one was taken");
-    if (across > 0) {
-        labels.notes.push_back(counted(across, "box is", "boxes are") +
-                               " wider than long: the first corner may not be the front left one");
-    }
+    tellFourCorners(departures, across, labels.notes);
     return labels;
 }
 

@@ -45,6 +45,7 @@ struct MotLosses {
     int velocities = 0;  ///< boxes whose velocity was dropped
 };
 
+/// How boxes are written as lines of MOTChallenge.
 struct MotWriteOptions {
     MotOptions pixels;
     /// Writes class 1 for every box that counts: TrackEval scores only class 1 when it preprocesses.

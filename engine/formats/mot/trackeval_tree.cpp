@@ -58,7 +58,7 @@ void listSequence(const fs::path& seqmap, const std::string& sequence, ExportRep
 
 std::string seqinfo(const LabelFile& labels, const std::string& sequence) {
     std::string text = "[Sequence]\nname=" + sequence + "\nimDir=img1\n";
-    text += "frameRate=" + fixedText(labels.frame_rate_hz.value_or(25), 6) + '\n';
+    text += "frameRate=" + fixedText(labels.frame_rate_hz.value_or(kAssumedRate_hz), 6) + '\n';
     text += "seqLength=" + std::to_string(std::max(1, framesToWrite(labels))) + '\n';
     if (labels.image_size) {
         text += "imWidth=" + std::to_string(labels.image_size->width) + '\n';

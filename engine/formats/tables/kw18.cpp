@@ -65,7 +65,7 @@ void writeKw18(const LabelFile& labels, const std::filesystem::path& path, const
     text += scored ? " 19:confidence\n" : "\n";
     AtomicFileWriter file(path);
     file.write(text);
-    const double rate = labels.frame_rate_hz.value_or(25);
+    const double rate = labels.frame_rate_hz.value_or(kAssumedRate_hz);
     const auto number = [](double value) { return ' ' + fixedText(value, kKw18Decimals); };
     for (const auto& [id, track] : tracks) {
         for (const LabelBox* record : track) {
@@ -83,8 +83,7 @@ void writeKw18(const LabelFile& labels, const std::filesystem::path& path, const
     report.files.push_back(path);
     std::erase_if(report.losses, [](const ExportLoss& loss) { return loss.kind == LossKind::velocity; });
     tellWorld(labels.world.get(), report);
-    if (!labels.frame_rate_hz && !labels.world)
-        report.notes.push_back("times count 25 frames a second, as no frame rate is known");
+    if (!labels.frame_rate_hz && !labels.world) tellAssumedRate(report);
 }
 
 }  // namespace

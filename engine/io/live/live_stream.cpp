@@ -157,7 +157,7 @@ struct LiveStream::Receiver {
             const double left = options.give_up_s - liveSecondsSince(last_picture);
             if (left <= 0) {
                 endFor("no picture came for " + std::to_string(static_cast<int>(options.give_up_s)) + " s" +
-                       (why.empty() ? "" : " (" + why + ")"));
+                       (why.empty() ? "" : " (" + why + ")") + "; check that the source sends, and start another run");
                 return nullptr;
             }
             try {
@@ -182,13 +182,14 @@ struct LiveStream::Receiver {
         const AVCodec* decoder = avcodec_find_decoder(stream.codecpar->codec_id);
         if (decoder == nullptr)
             throw Error(ErrorKind::input, shownAddress(address) + ": there is no decoder for its codec (" +
-                                              avcodec_get_name(stream.codecpar->codec_id) + ")");
+                                              avcodec_get_name(stream.codecpar->codec_id) +
+                                              "); let the source send H.264 or HEVC");
         libav::Codec codec(avcodec_alloc_context3(decoder));
         avcodec_parameters_to_context(codec.get(), stream.codecpar);
         codec->thread_count = 1;  // a further thread would hold a further frame back
         if (const int opened = avcodec_open2(codec.get(), decoder, nullptr); opened < 0)
-            throw Error(ErrorKind::input,
-                        shownAddress(address) + ": the decoder cannot be started (" + libav::errorText(opened) + ")");
+            throw Error(ErrorKind::input, shownAddress(address) + ": the decoder cannot be started (" +
+                                              libav::errorText(opened) + "); let the source send H.264 or HEVC");
         tick = stream.time_base;
         learnRate(stream);
         const libav::Packet packet(av_packet_alloc());
@@ -251,7 +252,7 @@ struct LiveStream::Receiver {
         }
         if (liveSecondsSince(looked_at_disk) < kBetweenLooks_s) return true;
         const std::string lack = lackOfRoom();
-        if (!lack.empty()) endFor(lack);
+        if (!lack.empty()) endFor(lack + "; make room before the next run");
         return lack.empty();
     }
 

@@ -12,6 +12,7 @@
 
 namespace eyrie {
 
+/// How a live source is connected and recorded, and how long it may be silent.
 struct LiveOptions {
     std::filesystem::path recording;  ///< what comes is written here as it is, as a transport stream
     double frame_rate_hz = 0;         ///< 0: what the stream says

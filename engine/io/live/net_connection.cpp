@@ -65,7 +65,8 @@ NetConnection::NetConnection(const std::string& address, double seconds, const s
     if (const int found = avformat_find_stream_info(raw, nullptr); found < 0) refuse(found);
     video_ = av_find_best_stream(raw, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
     if (video_ < 0 || raw->streams[video_]->codecpar->width < 1)
-        throw Error(ErrorKind::input, shownAddress(address) + ": carries no video");
+        throw Error(ErrorKind::input,
+                    shownAddress(address) + ": carries no video; check the address and what it sends");
 }
 
 bool NetConnection::read(AVPacket& packet, double seconds) {

@@ -15,6 +15,7 @@
 
 namespace eyrie {
 
+/// How much of a video is kept decoded, and how far it is read ahead.
 struct FrameCacheOptions {
     std::size_t max_bytes = 256U << 20U;  ///< pixels kept; one frame is kept even if it is larger
     int ahead = 8;                        ///< frames read beyond the last request, in the direction of the steps

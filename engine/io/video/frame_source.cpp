@@ -14,8 +14,7 @@
 namespace eyrie {
 namespace {
 
-/// Nearer than this a remembered rate is the video's own, only measured again.
-constexpr double kSameRate = 0.005;
+constexpr double kSameRate = 0.005;  ///< share of the video's own one
 
 /// A project or a table where a video belongs: says what takes them.
 void refuseOtherThanVideo(const std::filesystem::path& path) {
@@ -49,10 +48,14 @@ std::int64_t shiftedStamp(std::int64_t stamp_us, std::int64_t shift_us) {
     return stamp_us == kNoStamp || __builtin_add_overflow(stamp_us, shift_us, &shifted) ? kNoStamp : shifted;
 }
 
+bool isSameRate(double rate_hz, double own_rate_hz) {
+    return std::abs(rate_hz - own_rate_hz) <= kSameRate * own_rate_hz;
+}
+
 double overridingRate(const SourceOptions& options, double own_rate_hz) {
     if (options.frame_rate_hz > 0) return options.frame_rate_hz;
     const double remembered = options.remembered_rate_hz;
-    return remembered > 0 && std::abs(remembered - own_rate_hz) > kSameRate * own_rate_hz ? remembered : 0;
+    return remembered > 0 && !isSameRate(remembered, own_rate_hz) ? remembered : 0;
 }
 
 std::unique_ptr<FrameSource> openSource(const std::filesystem::path& path, const SourceOptions& options,

@@ -76,6 +76,7 @@ class FrameSource {
     virtual bool hasGrown() const noexcept { return false; }
 };
 
+/// How a video is opened.
 struct SourceOptions {
     double frame_rate_hz =
         0;  ///< > 0 overrides the video's own rate (needed for image folders); 0: own, 25 for folders
@@ -84,6 +85,9 @@ struct SourceOptions {
     double remembered_rate_hz = 0;
     std::filesystem::path index_folder;  ///< where indexes are cached; empty: the user's cache folder
 };
+
+/// Whether a rate is the video's own one, only measured again; a project keeps rates as they were measured.
+bool isSameRate(double rate_hz, double own_rate_hz);
 
 /// The rate that overrides a video's own one, `own_rate_hz`; 0: none does.
 double overridingRate(const SourceOptions& options, double own_rate_hz);

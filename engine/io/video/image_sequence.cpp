@@ -40,8 +40,12 @@ bool isCutJpeg(const std::string& bytes) {
 /// 8 or 16 bit, grey or blue-green-red.
 cv::Mat decode(const std::filesystem::path& file) {
     const std::string bytes = readWholeFile(file);
-    const std::string broken = file.string() + ": the image cannot be read; it is damaged, cut off or of another kind";
-    if (bytes.empty()) throw Error(ErrorKind::input, file.string() + ": the image file is empty");
+    const std::string broken =
+        file.string() +
+        ": the image cannot be read; it is damaged, cut off or of another kind: copy it again or "
+        "take it away";
+    if (bytes.empty())
+        throw Error(ErrorKind::input, file.string() + ": the image file is empty; copy it again or take it away");
     if (isCutJpeg(bytes)) throw Error(ErrorKind::input, broken);
     cv::Mat image;
     try {
@@ -56,7 +60,7 @@ cv::Mat decode(const std::filesystem::path& file) {
     if (image.channels() == 4) cv::cvtColor(image, image, cv::COLOR_BGRA2BGR);
     if (image.channels() != 1 && image.channels() != 3)
         throw Error(ErrorKind::input, file.string() + ": images must have one or three channels, this one has " +
-                                          std::to_string(image.channels()));
+                                          std::to_string(image.channels()) + "; convert them to grey or colour");
     return image;
 }
 

@@ -15,6 +15,7 @@ extern "C" {
 /// Owners of libav objects, and what else this room needs to know of it. Private to this room.
 namespace eyrie::libav {
 
+/// Gives back what FFmpeg's libraries made.
 struct Free {
     void operator()(AVFormatContext* context) const { avformat_close_input(&context); }
     void operator()(AVCodecContext* context) const { avcodec_free_context(&context); }

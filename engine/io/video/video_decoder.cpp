@@ -46,8 +46,9 @@ libav::Demuxer openContainer(const std::filesystem::path& path) {
                         (opened < 0 ? libav::errorText(opened) : "it is text") +
                         "); if it was copied or recorded, it may be cut off: repair or copy it again");
     if (const int found = avformat_find_stream_info(demuxer.get(), nullptr); found < 0)
-        throw Error(ErrorKind::input,
-                    path.string() + ": the streams of this file cannot be read (" + libav::errorText(found) + ")");
+        throw Error(ErrorKind::input, path.string() + ": the streams of this file cannot be read (" +
+                                          libav::errorText(found) +
+                                          "); it may be damaged: repair, copy or record it again");
     return demuxer;
 }
 
@@ -98,8 +99,8 @@ void VideoDecoder::open() {
     avcodec_parameters_to_context(codec_.get(), &parameters);
     codec_->thread_count = kDecodingThreads;
     if (const int opened = avcodec_open2(codec_.get(), decoder, nullptr); opened < 0)
-        throw Error(ErrorKind::input,
-                    path_.string() + ": the decoder cannot be started (" + libav::errorText(opened) + ")");
+        throw Error(ErrorKind::input, path_.string() + ": the decoder cannot be started (" + libav::errorText(opened) +
+                                          "); convert the video to H.264");
     waiting_ = false;
     drained_ = false;
     next_packet_ = 0;

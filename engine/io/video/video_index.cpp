@@ -121,7 +121,9 @@ Scan scanPackets(const std::filesystem::path& path, VideoIndex& index, Progress&
         av_packet_unref(packet.get());
     }
     if (index.packets.empty())
-        throw Error(ErrorKind::input, path.string() + ": the video track holds no pictures; the file may be cut off");
+        throw Error(
+            ErrorKind::input,
+            path.string() + ": the video track holds no pictures; the file may be cut off: copy or record it again");
     // A recording that begins amid a group of pictures: what comes before its first key frame cannot be decoded
     // rightly.
     const int start = index.firstStart();
@@ -243,7 +245,9 @@ std::unique_ptr<VideoDecoder> buildVideoIndex(const std::filesystem::path& path,
     if (!index.shown.empty()) index.coded_size = firstPictureSize(index, *decoder);
     if (index.coded_size.empty())
         throw Error(ErrorKind::input,
-                    path.string() + ": no picture of the video can be decoded; the file may be damaged or cut off");
+                    path.string() +
+                        ": no picture of the video can be decoded; the file may be damaged or cut off: copy or "
+                        "record it again");
     placeInTime(index);
     progress.at(path, 1);
     return decoder;

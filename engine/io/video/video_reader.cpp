@@ -5,6 +5,7 @@
 #include <opencv2/core.hpp>
 
 #include "core/error.h"
+#include "io/clock_jumps.h"
 #include "io/tables/size_text.h"
 #include "io/video/index_cache.h"
 
@@ -54,8 +55,14 @@ FrameTiming timingOf(const std::vector<std::int64_t>& ticks, double tick_s) {
         ++usual_steps;
     }
     if (usual_steps * 10 < steps_s.size() * 9) {
-        sum_s = static_cast<double>(ticks.back()) * tick_s;
-        return {static_cast<double>(steps_s.size()) / sum_s, true};
+        sum_s = 0;
+        std::size_t steps = 0;
+        for (const double step_s : steps_s) {
+            if (isClockJump(step_s, usual_s)) continue;
+            sum_s += step_s;
+            ++steps;
+        }
+        return {static_cast<double>(steps) / sum_s, true};
     }
     return {static_cast<double>(usual_steps) / sum_s, usual_steps < steps_s.size()};
 }

@@ -7,6 +7,7 @@
 
 namespace eyrie {
 
+/// How a video is encoded.
 struct VideoWriterOptions {
     double frame_rate_hz = 25;
     std::string codec;  ///< name of an encoder, e.g. "libx264"; empty: H.264, or MPEG-4 where that is missing

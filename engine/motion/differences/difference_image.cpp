@@ -4,6 +4,8 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "core/robust_statistics.h"
+
 namespace eyrie {
 namespace {
 
@@ -53,7 +55,6 @@ DifferenceImage backgroundDifference(const cv::Mat& now, const Background& backg
 }
 
 double differenceNoise(const DifferenceImage& difference) {
-    constexpr double kMedianOfAbsoluteNormal = 0.6745;
     std::vector<float> values;
     values.reserve(difference.values.total());
     for (int y = 0; y < difference.values.rows; ++y) {

@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/geometry/homography_jacobian.h"
+#include "core/robust_statistics.h"
 #include "core/values/corner_density.h"
 #include "core/values/inferred_ids.h"
 #include "motion/differences/area_matching.h"
@@ -33,9 +34,8 @@ cv::Mat smoothed(const cv::Mat& gray) {
     return smooth;
 }
 
-/// Robust deviation of differences: median / 0.6745, since most of the picture stands still.
+/// Robust deviation of differences: their median as if they were normal, since most of the picture stands still.
 double noiseOf(const cv::Mat& difference) {
-    constexpr double kMedianOfAbsoluteNormal = 0.6745;
     std::array<int, 256> histogram{};
     int count = 0;
     for (int y = 0; y < difference.rows; y += 4) {

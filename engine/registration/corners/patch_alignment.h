@@ -80,12 +80,14 @@ class alignas(64) PatchTemplate {
     float contrast_ = 0;
 };
 
+/// When a patch counts as found.
 struct AlignmentLimits {
     int max_iterations = 12;
     float converged_px = 0.01F;
     float max_shift_px = 6;  ///< farther from the start than this, the patch counts as not found
 };
 
+/// Where a patch was found in the next picture.
 struct Alignment {
     bool found = false;
     cv::Point2f position{0, 0};  ///< of the window's centre, px

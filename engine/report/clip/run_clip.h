@@ -13,6 +13,10 @@
 /// Some frames of a run's video as a video of their own.
 namespace eyrie {
 
+/// What is kept before and after an event where nobody says how much, seconds.
+inline constexpr double kAroundClip_s = 2;
+
+/// Which frames of a run become a clip, and what is drawn on them.
 struct ClipWish {
     FrameRange range;          ///< first and last frame, both included
     bool overlay = false;      ///< draw the tracks with their numbers and trails

@@ -19,7 +19,6 @@ constexpr int kRing_px = 9;
 constexpr double kWidth_mm = 170;
 constexpr int kGroundQuality = 85;
 constexpr int kGroundBits = 4;
-constexpr double kLeastWay = 2;  ///< between points of a way, units of the sheet
 
 const cv::Scalar kEdge(20, 20, 20);
 const cv::Scalar kWay(230, 230, 230);
@@ -138,7 +137,7 @@ GroundChapter addGround(const ReviewScene& scene, const std::vector<std::size_t>
                                        [&](const auto& sheet) { return sheet.first == sheets->sheetOf(frame); });
         if (shown && frame < pixels.info().frame_count) mosaic.paint(pixels.read(frame, true));
     }
-    const auto paths = pathsOn(*sheets, scene.input().reviewed.tracks.tracks, kLeastWay);
+    const auto paths = pathsOn(*sheets, scene.input().reviewed.tracks.tracks);
     for (const auto& [sheet, indices] : ordered) {
         const auto at = static_cast<std::size_t>(sheet);
         const SheetPainter painter(mosaic.sheets()[at], *sheets);

@@ -20,6 +20,7 @@ struct ScreenPlane {
     float at(float x, float y) const { return a * x + b * y + c; }
 };
 
+/// A flat face as it lies in the picture.
 struct ScreenFace {
     int count = 0;
     std::array<cv::Point2f, 14> corners;
@@ -34,6 +35,7 @@ struct ScreenFace {
     std::uint32_t seed = 0;
 };
 
+/// A ball, such as a crown of a tree, as it lies in the picture, px.
 struct ScreenBall {
     float x = 0, y = 0, radius = 0, inverse_depth = 0;
     std::uint32_t colour = 0;  ///< with `kShines` for lamps
@@ -54,6 +56,7 @@ struct ScreenBeam {
     std::uint8_t light = 0;  ///< 255: as much as full sunlight
 };
 
+/// The light over a scene.
 struct Light {
     cv::Point3d to_sun;  ///< unit vector; at night to the lamps overhead
     double ambient = 0.4;

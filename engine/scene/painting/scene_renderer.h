@@ -11,6 +11,7 @@
 
 namespace eyrie {
 
+/// A painted frame with its exact ground truth.
 struct RenderedFrame {
     Frame frame;  ///< gray and colour are always there
     std::vector<SceneObject> truth;

@@ -55,11 +55,15 @@ bool copyDatabase(SQLite::Database& source, SQLite::Database& target, const Copy
     return false;
 }
 
+void stopRunningRuns(SQLite::Database& database) {
+    database.exec("UPDATE run SET state = 'stopped' WHERE state = 'running'");
+}
+
 void settleCopy(const std::filesystem::path& copy, bool tolerant) {
     SQLite::Database database(copy.string(), SQLite::OPEN_READWRITE);
     try {
         database.exec("PRAGMA journal_mode = DELETE");
-        database.exec("UPDATE run SET state = 'stopped' WHERE state = 'running'");
+        stopRunningRuns(database);
     } catch (const SQLite::Exception&) {
         if (!tolerant) throw;
     }

@@ -23,6 +23,9 @@ struct CopyWatch {
 /// SQLite::Exception.
 bool copyDatabase(SQLite::Database& source, SQLite::Database& target, const CopyWatch& watch = {});
 
+/// What was being written when a project was copied or damaged is being written no more. Throws SQLite::Exception.
+void stopRunningRuns(SQLite::Database& database);
+
 /// Makes a copy that nobody else has open a file of its own, which needs no other beside it; runs that were being
 /// written are stopped in it. Of a damaged project not even that can be said: `tolerant` leaves it as it is then.
 /// Throws SQLite::Exception.

@@ -42,6 +42,7 @@ std::vector<ProjectBackup> listBackups(const std::filesystem::path& project);
 /// The folder in which the copies of a project lie, whether it is there or not.
 std::filesystem::path backupFolderOf(const std::filesystem::path& project);
 
+/// What came of making a copy of a project.
 enum class BackupOutcome {
     made,
     not_due,    ///< the newest copy is of this day, or nothing has changed since
@@ -49,6 +50,7 @@ enum class BackupOutcome {
     stopped,    ///< by the watch
     impossible  ///< see the notice
 };
+/// The copy that was made, or why there is none.
 struct BackupResult {
     BackupOutcome outcome = BackupOutcome::not_due;
     std::optional<ProjectBackup> backup;  ///< if made

@@ -108,7 +108,7 @@ bool restoreAsNew(const ProjectBackup& backup, const Path& fresh, const CopyWatc
     const NewPlace place(fresh);
     if (const auto error = renameWithoutReplacing(aside, fresh)) {
         removeDatabase(aside);
-        refuse(error.message());
+        refuse(error.message() + "; choose another name or folder");
     }
     return true;
 }

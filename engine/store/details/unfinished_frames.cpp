@@ -1,7 +1,5 @@
 #include "store/details/unfinished_frames.h"
 
-#include <SQLiteCpp/Database.h>
-
 #include "core/values/classified_box.h"
 #include "store/database/rows.h"
 #include "store/details/squeezed_bytes.h"
@@ -38,10 +36,6 @@ std::optional<std::vector<MotionVector>> UnfinishedFrames::vectors(SQLite::Datab
 std::optional<std::vector<ClassifiedBox>> UnfinishedFrames::classified(SQLite::Database& database, int run_id,
                                                                        FrameIndex frame) {
     return readSqueezed(database, "vehicles", run_id, frame, unsqueezeBoxes);
-}
-
-void giveBackSpace(SQLite::Database& database) {
-    database.tryExec("PRAGMA incremental_vacuum");
 }
 
 }  // namespace eyrie

@@ -30,8 +30,4 @@ class UnfinishedFrames {
     SQLite::Statement insert_;
 };
 
-/// Gives what was deleted back to the disk, where the project was made to do so (projects of schema 15 on); elsewhere
-/// the space is used again by what comes next. Does nothing while others keep it from working.
-void giveBackSpace(SQLite::Database& database);
-
 }  // namespace eyrie

@@ -8,6 +8,7 @@
 
 namespace eyrie {
 
+/// How bad a finding of a check is.
 enum class Health {
     good,
     remark,  ///< nothing is wrong, but one should know
@@ -21,6 +22,7 @@ struct HealthItem {
     std::string words;  ///< for people
 };
 
+/// What a check of a project found.
 struct HealthReport {
     std::vector<HealthItem> items;
     bool stopped = false;  ///< by the watch; the items are those until then

@@ -9,6 +9,7 @@
 /// What a project holds, in short, whatever its schema; and what differs between two states of it.
 namespace eyrie {
 
+/// What a project holds, to tell two states of it apart.
 struct ProjectContents {
     struct Run {
         std::string name;

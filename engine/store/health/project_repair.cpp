@@ -184,7 +184,8 @@ RepairReport repairProject(const Path& damaged, const Path& fresh, const CopyWat
     if (report.stopped) return report;
     const NewPlace place(fresh);
     if (const auto error = renameWithoutReplacing(made, fresh)) {
-        throw Error(ErrorKind::output, "the project " + fresh.string() + " cannot be made (" + error.message() + ")");
+        throw Error(ErrorKind::output, "the project " + fresh.string() + " cannot be made (" + error.message() +
+                                           "); choose another name or folder");
     }
     return report;
 }

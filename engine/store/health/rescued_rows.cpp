@@ -3,6 +3,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include "core/utc_time.h"
+#include "store/backup/database_copy.h"
 #include "store/database/rows.h"
 #include "store/health/report_text.h"
 #include "store/health/row_rules.h"
@@ -160,7 +161,7 @@ SELECT run_id, track_id, min(frame), max(frame), count(*), max(status <> 'tentat
 FROM track_state GROUP BY run_id, track_id;
 DROP TABLE kept_score;
 )sql");
-    database.exec("UPDATE run SET state = 'stopped' WHERE state = 'running'");
+    stopRunningRuns(database);
 
     std::vector<std::string> lost;
     SQLite::Statement statement(database, R"sql(

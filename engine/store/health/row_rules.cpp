@@ -214,7 +214,7 @@ std::vector<RowRule> rowRules() {
              "alignment BETWEEN -1.001 AND 1.001 AND score BETWEEN 0 AND 1",
          "what speaks for a track is impossible"},
         {"track_evidence", "(appearance IS NULL OR appearance BETWEEN -6 AND 12)",
-         "how much a track looks like a vehicle is impossible", 23},
+         "how much a track looks like a vehicle is impossible", 24},
         {"run_state", frame, "state of a run is impossible"},
         {"dropped_state", frame + " AND " + isOneOf("reason", stored::kTrackDrops),
          "a state left out of a track is impossible"},

@@ -5,13 +5,6 @@
 #include "store/database/rows.h"
 
 namespace eyrie {
-namespace {
-
-// SQLite holds values of up to 1,000,000,000 bytes.
-constexpr std::size_t kLargestStep = 900'000'000;
-
-}  // namespace
-
 /// The row that undo takes next is the newest that is done, that of redo the oldest that is undone.
 std::string StepJournal::select(const char* columns, bool done) const {
     return std::string("SELECT ") + columns + " FROM " + table_.name + " WHERE sequence_id = ? AND " +

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -10,6 +11,9 @@ namespace eyrie {
 
 /// Steps kept for undo per video and kind of work; older ones are dropped.
 inline constexpr int kStepsKept = 1000;
+
+/// Bytes of a step; a row of a project holds no more.
+inline constexpr std::size_t kLargestStep = ProjectFile::kLongestRow - 1'000'000;  // what else stands in its row
 
 /// A kind of work whose steps are kept: its table, with columns id, sequence_id, name, made_utc, undone and data.
 struct StepTable {

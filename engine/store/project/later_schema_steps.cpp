@@ -460,6 +460,12 @@ void addVideoStarts(SQLite::Database& database) {
 // Zones may be arrows. The tables are the same; versions before do not know the word, and should say so at once.
 void addArrows(SQLite::Database&) {}
 
+// The frames in which a doubtful track has states: rows are in the order of frames, and a person who selects one track
+// should not wait for those of all others to be read.
+void addDoubtfulIndex(SQLite::Database& database) {
+    database.exec("CREATE INDEX doubtful_state_of_track ON doubtful_state (run_id, track_id, frame)");
+}
+
 // How much detections and tracks look like vehicles to the classifier.
 void addAppearance(SQLite::Database& database) {
     database.exec(R"sql(

@@ -24,7 +24,6 @@ using Path = std::filesystem::path;
 
 // A frame's arrays are 100 kB and more; small pages would chain dozens of them.
 constexpr int kPageSize = 8192;
-constexpr int kLongestValue = 1 << 28;  // bytes of one text or array; a frame's arrays have some hundred thousand
 
 std::unique_ptr<SQLite::Database> openReadOnly(const Path& path) {
     auto database = std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READONLY, kBusyTimeoutMs);
@@ -88,7 +87,7 @@ void distrust(SQLite::Database& database) {
     sqlite3_db_config(handle, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
     sqlite3_db_config(handle, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
     sqlite3_db_config(handle, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
-    sqlite3_limit(handle, SQLITE_LIMIT_LENGTH, kLongestValue);
+    sqlite3_limit(handle, SQLITE_LIMIT_LENGTH, static_cast<int>(ProjectFile::kLongestRow));
     database.exec("PRAGMA cell_size_check = ON");
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -15,6 +16,9 @@ namespace eyrie {
 class ProjectFile {
  public:
     enum class Mode { read_write, read_only };
+
+    /// Bytes that a row holds at most, in all its columns; a frame's arrays have some hundred thousand.
+    static constexpr std::size_t kLongestRow = std::size_t{1} << 28;
 
     /// Makes a new project; never replaces a file, also not one that another program makes at this moment. A log that a
     /// deleted project left there is put aside. Throws Error(output) when the file exists or its folder cannot be

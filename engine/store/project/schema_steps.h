@@ -30,6 +30,7 @@ void addAssumedRates(SQLite::Database& database);
 void addCompactStates(SQLite::Database& database);
 void addVideoStarts(SQLite::Database& database);
 void addArrows(SQLite::Database& database);
+void addDoubtfulIndex(SQLite::Database& database);
 void addAppearance(SQLite::Database& database);
 
 }  // namespace eyrie::schema

@@ -100,7 +100,12 @@ std::vector<TrackState> DoubtfulTracks::statesIn(int run_id, FrameIndex frame) c
 }
 
 std::vector<TrackFrame> DoubtfulTracks::statesOf(int run_id, TrackId track) const {
-    return readDoubtful(project_, run_id, "track_id = ?", {track});
+    // Its frames first, from the index alone: without figures of how many rows there are SQLite would rather read all
+    // of the run.
+    return readDoubtful(project_, run_id,
+                        "track_id = ?2 AND frame IN (SELECT frame FROM doubtful_state WHERE run_id = ?1 AND track_id "
+                        "= ?2)",
+                        {track});
 }
 
 BoxesByFrame DoubtfulTracks::boxes(int run_id) const {

@@ -8,9 +8,9 @@
 
 #include "core/utc_time.h"
 #include "core/values/last_frame.h"
+#include "store/database/freed_space.h"
 #include "store/database/rows.h"
 #include "store/details/recording_options.h"
-#include "store/details/unfinished_frames.h"
 #include "store/project/sequence_rows.h"
 #include "store/runs/frame_rows.h"
 #include "store/runs/run_lock.h"

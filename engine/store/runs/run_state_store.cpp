@@ -8,9 +8,6 @@
 namespace eyrie {
 namespace {
 
-/// SQLite takes a billion bytes; so much would be slow to keep, too.
-constexpr std::size_t kMostBytes = 500'000'000;
-
 void runFor(SQLite::Database& database, const std::string& command, int run_id) {
     SQLite::Statement statement(database, command);
     RowWriter(statement).integer(run_id).run();
@@ -74,7 +71,7 @@ std::optional<StoredRunState> RunStateStore::newest(int run_id) const {
 }
 
 void RunStateStore::keep(int run_id, FrameIndex frame, const std::string& bytes) {
-    if (bytes.size() > kMostBytes) return;
+    if (bytes.size() > kLargestRunState) return;
     guarded(project_.path(), "keeping the state" + ofRun(run_id), [&] {
         SQLite::Statement statement(project_.database(),
                                     "INSERT OR REPLACE INTO run_state (run_id, frame, data) VALUES (?, ?, ?)");

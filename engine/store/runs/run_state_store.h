@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -13,6 +14,9 @@ struct StoredRunState {
     FrameIndex frame = 0;
     std::string bytes;
 };
+
+/// Bytes of a state; a row of a project holds no more.
+inline constexpr std::size_t kLargestRunState = ProjectFile::kLongestRow - 1'000'000;  // what else stands in its row
 
 /// Keeps what a run needs to be gone on with when it ends early. Throws Error(project | output).
 class RunStateStore {

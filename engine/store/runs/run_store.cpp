@@ -3,13 +3,14 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <unordered_map>
 #include <unordered_set>
 
 #include "core/utc_time.h"
+#include "store/database/freed_space.h"
 #include "store/database/rows.h"
-#include "store/details/unfinished_frames.h"
 #include "store/project/sequence_rows.h"
 #include "store/runs/doubtful_tracks.h"
 #include "store/runs/frame_rows.h"
@@ -18,6 +19,8 @@
 
 namespace eyrie {
 namespace {
+
+constexpr std::chrono::seconds kPatienceOfClosing{2};
 
 /// What the rest of Eyrie divides by and counts up to.
 void check(const RunRecord& run) {
@@ -364,7 +367,8 @@ std::optional<RunRecord> RunStore::lastRemoved() const {
 
 void RunStore::purgeRemoved() {
     guarded(project_.path(), "deleting removed runs", [&] {
-        if (project_.database().exec("DELETE FROM run WHERE removed_utc <> ''") > 0) giveBackSpace(project_.database());
+        if (project_.database().exec("DELETE FROM run WHERE removed_utc <> ''") > 0)
+            giveBackSpace(project_.database(), kPatienceOfClosing);
     });
 }
 

@@ -170,7 +170,8 @@ class RunStore {
     void restore(int run_id);
     /// The run that was removed last, to the second; of several the newest run.
     std::optional<RunRecord> lastRemoved() const;
-    /// Deletes what was removed, for good.
+    /// Deletes what was removed, for good. Its space goes back to the disk for a few seconds at most, since it is called
+    /// where a project is closed; the rest is used again, or given back when a run ends.
     void purgeRemoved();
 
  private:

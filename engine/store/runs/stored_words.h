@@ -15,6 +15,7 @@
 /// Enumerators as words in the file, apart from the words on screen: they may not change when those do.
 namespace eyrie::stored {
 
+/// The word by which a project file knows an enumerator.
 template <class Enum>
 struct Word {
     Enum value;

@@ -150,7 +150,7 @@ std::vector<int> workOrder(const SweepPlan& plan) {
 std::vector<int> shardOf(const std::vector<int>& order, int number, int count) {
     if (count < 1 || number < 1 || number > count) {
         throw Error(ErrorKind::parameter, "shard " + std::to_string(number) + "/" + std::to_string(count) +
-                                              ": expected I/N with I from 1 to N, e.g. 3/8");
+                                              ": expected PART/PARTS with PART from 1 to PARTS, e.g. 3/8");
     }
     const auto cut = [&](int at) {
         return static_cast<std::ptrdiff_t>(static_cast<std::int64_t>(order.size()) * at / count);

@@ -49,6 +49,7 @@ struct TradeOffPoint {
     double precision = 0;
     double false_per_frame = 0;
 };
+/// Precision and recall of the points of one axis.
 struct TradeOffCurve {
     std::vector<TradeOffPoint> points;  ///< in the order of the axis
     /// Area under precision over the recall that was reached, by trapezoids between points in the order of recall, of

@@ -32,7 +32,7 @@ SweepFigures figuresOf(const Measures& measures, int clip, bool tracks) {
     figures.tracks = tracks;
     figures.overlap = measures.overlap;
     for (const NamedMeasure& m : listMeasures(measures)) {
-        if (m.value && std::isfinite(*m.value) && (tracks || (m.group != "tracking" && m.group != "identity")))
+        if (m.value && std::isfinite(*m.value) && (tracks || !isOfTracks(m.group)))
             figures.values.emplace_back(m.key, *m.value);
     }
     return figures;

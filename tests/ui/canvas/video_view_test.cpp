@@ -1,14 +1,38 @@
 #include "canvas/video_view.h"
 
+#include <QPainter>
 #include <QSignalSpy>
 #include <QTest>
 #include <QWheelEvent>
 
+#include "canvas/canvas_tool.h"
 #include "canvas/drawing/image_convert.h"
 #include "canvas/layers/track_layer.h"
 #include "ui/support/ui_test.h"
 
 namespace eyrie::ui::video_view_test {
+
+namespace {
+
+/// Draws a cross somewhere.
+class CrossTool : public CanvasTool {
+ public:
+    void paint(QPainter& painter, const CanvasPlace&) const override {
+        painter.setPen(Qt::red);
+        painter.drawLine(at - QPointF(20, 0), at + QPointF(20, 0));
+        painter.drawLine(at - QPointF(0, 20), at + QPointF(0, 20));
+    }
+    bool press(const QMouseEvent&, const CanvasPlace&) override { return false; }
+    bool move(const QMouseEvent&, const CanvasPlace&) override { return false; }
+    bool release(const QMouseEvent&, const CanvasPlace&) override { return false; }
+    bool doubleClick(const QMouseEvent&, const CanvasPlace&) override { return false; }
+    void leave() override {}
+    const QCursor* cursor() const override { return nullptr; }
+
+    QPointF at{300, 200};  ///< view coordinates
+};
+
+}  // namespace
 
 class VideoViewTest : public QObject {
     Q_OBJECT
@@ -145,6 +169,45 @@ class VideoViewTest : public QObject {
         const QImage with = view.picture();
         settings.setVisible(TrackLayer::kKind, false);
         QVERIFY(with != view.picture());
+    }
+
+    void underAToolThePictureStaysAsItIsNow() {
+        OverlaySettings settings;
+        VideoView view(settings);
+        view.resize(600, 400);
+        view.show();
+        CrossTool tool;
+        view.setTool(&tool);
+        const auto shown = [&view] {
+            // The first shows what is new, the second keeps it, the third paints what was kept.
+            for (int i = 0; i < 2; ++i) view.grab();
+            return view.grab().toImage().convertToFormat(QImage::Format_RGB32);
+        };
+        const auto as_painted = [&view] { return view.picture(); };
+        view.setFrame(checkered({200, 100}));
+        const QImage first = shown();
+        QCOMPARE(first, as_painted());
+
+        ViewFrame frame = checkered({200, 100});
+        frame.result = oneTrack();
+        view.setFrame(frame);
+        const QImage tracked = shown();
+        QCOMPARE(tracked, as_painted());
+        QVERIFY(tracked != first);
+
+        settings.setVisible(TrackLayer::kKind, !settings.isVisible(TrackLayer::kKind));
+        QCOMPARE(shown(), as_painted());
+        QVERIFY(view.picture() != tracked);
+        view.zoomBy(2);
+        QCOMPARE(shown(), as_painted());
+        view.setBadge(QStringLiteral("preview"));
+        QCOMPARE(shown(), as_painted());
+        view.resize(500, 300);
+        QCOMPARE(shown(), as_painted());
+        tool.at = {120, 90};  // what the tool draws is never kept
+        QCOMPARE(shown(), as_painted());
+        view.setTool(nullptr);
+        QCOMPARE(shown(), as_painted());
     }
 
     void wrappedImagesShareTheirPixels() {

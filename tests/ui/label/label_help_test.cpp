@@ -39,6 +39,7 @@ class LabelHelpTest : public QObject, test::Labelling {
         QCOMPARE(planned().size(), 0);
         QCOMPARE(labels.selected(), std::optional<ObjectId>(id));
         key(*window, Qt::Key_Y, Qt::ShiftModifier);
+        go(*window, 12);  // to look; what was shown is confirmed, not another split here
         key(*window, Qt::Key_Y, Qt::ShiftModifier);
         QCOMPARE(labels.annotations().objects.size(), std::size_t(2));
         QCOMPARE(object(*window, id).last_frame, 7);
@@ -86,6 +87,44 @@ class LabelHelpTest : public QObject, test::Labelling {
             QCOMPARE(proposals.pending().size(), offered - 2);
             QCOMPARE(labels.annotations().objects.size(), std::size_t(1));
         }
+    }
+
+    void theProposalUnderTheCursorIsTakenOrRejectedWithoutAClick() {
+        const auto window = labellingWindow(60, true);
+        QVERIFY(window);
+        LabelSession& labels = window->labelling().labels();
+        LabelProposals& proposals = window->labelling().proposals();
+        key(*window, Qt::Key_P);
+        QVERIFY(waitFor([&] { return proposals.shown() && !proposals.working() && !proposals.pending().empty(); }));
+        const Proposal offered = *proposals.pending().front();
+        const FrameIndex frame = offered.object.keyframes.front().frame;
+        go(*window, frame);
+        const cv::Point2d centre = offered.object.keyframes.front().box.centre;
+        const std::size_t before = proposals.pending().size();
+        // Nowhere near one nothing is taken.
+        QTest::mouseMove(&window->canvas(), at(*window, 0, 0));
+        QVERIFY(waitFor([&] { return window->labelling().tool().cursorInImage().has_value(); }));
+        key(*window, Qt::Key_Return);
+        QCOMPARE(labels.annotations().objects.size(), std::size_t(0));
+        const auto point_at_it = [&] {
+            QTest::mouseMove(&window->canvas(), at(*window, centre.x, centre.y));
+            return waitFor([&] {
+                const auto place = window->labelling().tool().cursorInImage();
+                return place && std::hypot(place->x() - centre.x, place->y() - centre.y) < 2;
+            });
+        };
+        QVERIFY(point_at_it());
+        key(*window, Qt::Key_Return);
+        QCOMPARE(labels.annotations().objects.size(), std::size_t(1));
+        QCOMPARE(proposals.pending().size(), before - 1);
+        QVERIFY(!proposals.selected());  // the next one pointed at is meant, not one that was chosen meanwhile
+        key(*window, Qt::Key_Z, Qt::ControlModifier);
+        QCOMPARE(proposals.pending().size(), before);
+        QVERIFY(point_at_it());
+        key(*window, Qt::Key_Backspace);
+        QCOMPARE(labels.annotations().objects.size(), std::size_t(0));
+        QCOMPARE(proposals.pending().size(), before - 1);
+        QVERIFY(proposals.rejectedCount() > 0);
     }
 
     void severalProposalsAreTakenTogetherAsExactAsAsked() {

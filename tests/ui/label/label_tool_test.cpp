@@ -254,11 +254,48 @@ class LabelToolTest : public QObject {
         QVERIFY(!canvas.tool.drawingRegion());
         QCOMPARE(polygon.size(), std::size_t(3));
         QVERIFY(near(polygon[1].x, 80, 0.6) && near(polygon[2].y, 60, 0.6));
-        polygon.clear();
+    }
+
+    void cornersWithoutAnAreaAreNoRegionYet() {
+        Canvas canvas;
+        const CanvasPlace place{canvas.view.transform(), canvas.view.frame().image, QRectF(canvas.view.rect())};
+        const auto refused = [&] {
+            return canvas.tool.drawingRegion() && canvas.region.empty() &&
+                   canvas.tool.hint(place).contains(QStringLiteral("three corners"));
+        };
+        canvas.tool.startRegion();
+        QVERIFY(canvas.tool.hint(place).contains(QStringLiteral("Enter")));
+        QTest::mouseClick(&canvas.view, Qt::RightButton, {}, canvas.at(50, 50));
+        QVERIFY(!canvas.tool.drawingRegion());  // nothing was begun
         canvas.tool.startRegion();
         canvas.click(20, 20);
         QTest::mouseClick(&canvas.view, Qt::RightButton, {}, canvas.at(50, 50));
-        QVERIFY(polygon.empty());  // one corner is no region
+        QVERIFY(refused());
+        canvas.click(80, 20);
+        QVERIFY(!canvas.tool.hint(place).contains(QStringLiteral("three corners")));
+        canvas.click(50, 20);
+        QTest::keyClick(&canvas.view, Qt::Key_Return);
+        QVERIFY(refused());  // all on one line
+        QTest::keyClick(&canvas.view, Qt::Key_Backspace);
+        canvas.click(80, 60);
+        QTest::keyClick(&canvas.view, Qt::Key_Return);
+        QVERIFY(!canvas.tool.drawingRegion());
+        QCOMPARE(canvas.region.size(), std::size_t(3));
+    }
+
+    void everyStepOfABoxSaysWhatComesNext() {
+        Canvas canvas;
+        const CanvasPlace place{canvas.view.transform(), canvas.view.frame().image, QRectF(canvas.view.rect())};
+        const auto says = [&](const char* word) { return canvas.tool.hint(place).contains(QLatin1String(word)); };
+        QVERIFY(canvas.tool.hint(place).isEmpty());
+        canvas.tool.startDrawing();
+        QVERIFY(says("Click the rear") && says("drag") && says("Esc"));
+        canvas.click(60, 40);
+        QVERIFY(says("Click the front") && says("Shift") && says("Backspace") && says("Esc"));
+        canvas.click(60, 60, Qt::ShiftModifier);
+        QVERIFY(says("Click a side") && says("Backspace") && says("Esc"));
+        QTest::keyClick(&canvas.view, Qt::Key_Backspace);
+        QVERIFY(says("Click the front"));
     }
 
     void aBoxAndARegionAreDrawnWithoutAMouse() {
@@ -312,6 +349,25 @@ class LabelToolTest : public QObject {
         canvas.tool.setScene(scene);
         canvas.drag(canvas.handle(start, BoxHandle::front), canvas.at(160, 75));
         QCOMPARE(canvas.changes, 0);
+    }
+
+    void whatIsDraggedIsNotLetGoOnAnObjectThatWasChosenMeanwhile() {
+        Canvas canvas;
+        canvas.select(box(100, 75, 60, 40, 0));
+        QTest::mousePress(&canvas.view, Qt::LeftButton, {}, canvas.at(100, 75));
+        QTest::mouseMove(&canvas.view, canvas.at(110, 75));
+        QTest::mouseMove(&canvas.view, canvas.at(120, 75));
+        LabelScene scene = canvas.tool.scene();
+        LabelMark other = scene.marks.front();
+        other.id = 8;
+        other.box = box(40, 30, 20, 10, 0);
+        scene.marks.front().selected = false;
+        scene.marks.push_back(other);
+        scene.selected = 8;  // by N, the key for the next object
+        canvas.tool.setScene(scene);
+        QTest::mouseRelease(&canvas.view, Qt::LeftButton, {}, canvas.at(120, 75));
+        QCOMPARE(canvas.changes, 0);
+        QVERIFY(!canvas.tool.draft());
     }
 
     void everythingCanBePaintedAtAnyZoom() {

@@ -371,6 +371,34 @@ class LabelWorkspaceTest : public QObject, test::Labelling {
         QCOMPARE(object(*window, other).object_class, std::string("tram"));
     }
 
+    void theKeyForAKeyframeDeletesNoOtherObject() {
+        const auto window = labellingWindow(6);
+        QVERIFY(window);
+        LabelSession& labels = window->labelling().labels();
+        const ObjectId kept = draw(*window, {40, 60}, {58, 60});
+        const ObjectId gone = draw(*window, {140, 60}, {158, 60});
+        labels.setSelection({kept, gone}, gone);
+        key(*window, Qt::Key_Delete);  // its only keyframe
+        QVERIFY(labels.object(gone) == nullptr);
+        QVERIFY(labels.object(kept) != nullptr);
+    }
+
+    void stepsNameTheObjectWithItsClass() {
+        const auto window = labellingWindow(40);
+        QVERIFY(window);
+        LabelSession& labels = window->labelling().labels();
+        const ObjectId id = draw(*window, {20, 55}, {42, 55});  // one of the vehicles of the scene
+        const QString name = QStringLiteral("car %1").arg(id);
+        QCOMPARE(labels.undoName(), QStringLiteral("Draw %1").arg(name));
+        key(*window, Qt::Key_Right);
+        QCOMPARE(labels.undoName(), QStringLiteral("Move box of %1").arg(name));
+        key(*window, Qt::Key_Left);
+        window->labelling().actions().track_on->trigger();
+        QVERIFY(waitFor([&] { return !window->labelling().tracking().working(); }));
+        QVERIFY(object(*window, id).keyframes.size() > 1);
+        QCOMPARE(labels.undoName(), QStringLiteral("Track %1").arg(name));
+    }
+
     void ignoreRegionsAreDrawnAndDeleted() {
         const auto window = labellingWindow(6);
         QVERIFY(window);

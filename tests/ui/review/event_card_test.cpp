@@ -58,6 +58,35 @@ class EventCardTest : public QObject {
         card.show(subject);
         QCOMPARE(card.note().text(), QStringLiteral("van"));
     }
+
+    void whatWasTypedIsKeptWhenAnotherEventIsShown() {
+        EventCard card;
+        QStringList kept;
+        CardSubject subject;
+        subject.event = 3;
+        subject.note = QStringLiteral("van");
+        card.setCommands(
+            {.write_note =
+                 [&](int event, const QString& note) {
+                     kept << QStringLiteral("note %1 %2").arg(event).arg(note);
+                     subject.note = note;
+                     card.show(subject);  // as the list does once it is stored
+                 },
+             .write_tags = [&](int event,
+                               const QString& tags) { kept << QStringLiteral("tags %1 %2").arg(event).arg(tags); }});
+        card.show(subject);
+        card.note().setCursorPosition(3);
+        QTest::keyClicks(&card.note(), QStringLiteral(" white"));
+        QTest::keyClicks(&card.tags(), QStringLiteral("gate"));
+        CardSubject other;
+        other.event = 4;
+        card.show(other);  // by Ctrl and the arrow: the focus stays in the field
+        QCOMPARE(kept, (QStringList{QStringLiteral("note 3 van white"), QStringLiteral("tags 3 gate")}));
+        QCOMPARE(card.subject()->event, 4);
+        QVERIFY(card.note().text().isEmpty() && card.tags().text().isEmpty());
+        card.show(subject);
+        QCOMPARE(kept.size(), 2);  // nothing was written on the other one
+    }
 };
 
 }  // namespace eyrie::ui::event_card_test

@@ -1,7 +1,5 @@
 #include <QAbstractItemModelTester>
-#include <QComboBox>
 #include <QHeaderView>
-#include <QLabel>
 #include <QLineEdit>
 #include <QScrollBar>
 #include <QSignalSpy>
@@ -10,39 +8,20 @@
 #include <map>
 #include <set>
 
-#include "canvas/overlay_settings.h"
-#include "review/events/event_thresholds.h"
 #include "review/events/events_panel.h"
-#include "review/tracks/track_query.h"
+#include "ui/review/listed_events.h"
 #include "ui/support/ui_support.h"
 #include "ui/support/ui_test.h"
 #include "widgets/display_text.h"
-#include "widgets/layout/collapsible_section.h"
-#include "widgets/parameters/parameter_row.h"
 #include "widgets/tables/table_roles.h"
-#include "workspace/window_actions.h"
 
 namespace eyrie::ui::events_list_test {
 
+using test::found;
+using test::happening;
+using test::someEvents;
+
 namespace {
-
-Event happening(EventKind kind, TrackId track, FrameIndex frame) {
-    Event event;
-    event.kind = kind;
-    event.tracks = {track};
-    event.first_frame = event.frame = event.last_frame = frame;
-    return event;
-}
-
-std::shared_ptr<const FoundEvents> found(std::vector<Event> events, int frames = 100, bool searched = true,
-                                         const std::shared_ptr<const FoundEvents>& former = nullptr) {
-    auto run = std::make_shared<StoredTracks>();
-    if (searched) run->footage.camera = CameraMotion::standing(0, frames - 1);
-    run->footage.image_size = {240, 180};
-    run->footage.last_frame = frames - 1;
-    run->footage.scale.frame_rate_hz = 25;
-    return inOrder(run, {std::move(events), {}, {}}, {}, {}, former);
-}
 
 Event happeningAt(EventKind kind, TrackId track, FrameIndex frame, double x) {
     Event event = happening(kind, track, frame);
@@ -61,15 +40,6 @@ std::map<TrackId, int> idsByTrack(const EventsModel& model) {
     return ids;
 }
 
-/// Six stops, a U-turn and a vehicle that was lost.
-std::vector<Event> someEvents() {
-    std::vector<Event> events;
-    for (int i = 0; i < 6; ++i) events.push_back(happening(EventKind::stops, i + 1, 10 * i));
-    events.push_back(happening(EventKind::turns_back, 7, 50));
-    events.push_back(happening(EventKind::lost, 8, 80));
-    return events;
-}
-
 /// Counts the texts it is asked for.
 class CountingModel : public EventsModel {
  public:
@@ -83,49 +53,13 @@ class CountingModel : public EventsModel {
 
 }  // namespace
 
-/// The list of events by itself: order, filters, counts, notes, limits, and how much work many events are.
-class EventsListTest : public QObject {
+/// The list of events by itself: order, columns, notes, what stays when others come, and how much work many are.
+class EventsListTest : public test::ListedEvents {
     Q_OBJECT
 
-    std::unique_ptr<test::OwnHome> home_;
-    std::unique_ptr<OverlaySettings> overlays_;
-    std::unique_ptr<QWidget> window_;
-    std::unique_ptr<WindowActions> actions_;
-    std::map<std::size_t, Verdict> verdicts_;
-
-    const Verdict* verdictAt(std::size_t position) const {
-        const auto at = verdicts_.find(position);
-        return at == verdicts_.end() ? nullptr : &at->second;
-    }
-    void give(EventsModel& model, const std::shared_ptr<const FoundEvents>& events) const {
-        model.setEvents(events, [this](std::size_t position) { return verdictAt(position); });
-    }
-    void judge(EventsModel& model, std::size_t position, Judgement judgement) {
-        verdicts_[position].judgement = judgement;
-        model.setVerdict(position, verdictAt(position));
-    }
-    static QStringList kindsShown(const EventsPanel& panel) {
-        QStringList kinds;
-        const auto* shown = panel.table()->model();
-        for (int row = 0; row < shown->rowCount(); ++row)
-            kinds << shown->index(row, EventsModel::kind_column).data().toString();
-        return kinds;
-    }
-
  private slots:
-    void init() {
-        home_ = std::make_unique<test::OwnHome>();
-        overlays_ = std::make_unique<OverlaySettings>();
-        window_ = std::make_unique<QWidget>();
-        actions_ = std::make_unique<WindowActions>(*overlays_, window_.get());
-        verdicts_.clear();
-    }
-    void cleanup() {
-        actions_.reset();
-        window_.reset();
-        overlays_.reset();
-        home_.reset();
-    }
+    void init() { begin(); }
+    void cleanup() { end(); }
 
     void whatMattersMostComesFirst() {
         EventsModel model;
@@ -305,129 +239,6 @@ class EventsListTest : public QObject {
         QVERIFY2(tip(1).endsWith(QStringLiteral("\nUnsure")), qPrintable(tip(1)));
     }
 
-    void hiddenEventsAreCounted() {
-        EventsModel model;
-        EventsPanel panel(&model, *actions_);
-        give(model, found(someEvents()));
-        panel.showCounts(0);
-        QCOMPARE(panel.headerText(), QStringLiteral("0 of 8 judged"));
-        judge(model, 0, Judgement::relevant);
-        panel.kinds().setShown(static_cast<int>(EventKind::stops), false);
-        QCOMPARE(kindsShown(panel), QStringList({QStringLiteral("Lost"), QStringLiteral("Turns back")}));
-        QCOMPARE(panel.headerText(), QStringLiteral("1 of 8 judged · 2 of 8 shown"));
-        panel.verdicts().setCurrentIndex(1);
-        QCOMPARE(kindsShown(panel), QStringList(QStringLiteral("Turns back")));
-        panel.showCounts(2);
-        QVERIFY(panel.headerText().contains(QStringLiteral("without an event")));
-    }
-
-    void chipsOfTheTracksNarrowTheEventsAndWhatTheyHideIsCounted() {
-        EventsModel model;
-        EventsPanel panel(&model, *actions_);
-        panel.resize(400, 400);
-        panel.show();
-        // Track n drives n px a frame. Besides what happens to one, 2 and 8 meet.
-        std::vector<Event> events = someEvents();
-        events.push_back(happening(EventKind::meeting, 2, 30));
-        events.back().tracks = {2, 8};
-        give(model, found(events));
-        std::vector<TrackSummary> tracks(8);
-        for (int i = 0; i < 8; ++i) {
-            tracks[static_cast<std::size_t>(i)].id = i + 1;
-            tracks[static_cast<std::size_t>(i)].last_frame = 99;
-            tracks[static_cast<std::size_t>(i)].mean_speed_px = i + 1;
-        }
-        const auto doings = std::make_shared<DoingsByTrack>();
-        for (int i = 0; i < 6; ++i) (*doings)[i + 1].standing = {{10 * i, 10 * i + 5}};
-        const auto ask = [&](
-                             const TrackFilter& filter, std::function<void()> clear = [] {}) {
-            panel.setQuery(std::make_shared<const TrackQuery>(filter, tracks, SceneScale(),
-                                                              TrackQuery::Known{doings, nullptr}, FrameOfDay()),
-                           std::move(clear));
-        };
-        TrackFilter fast;
-        fast.range(TrackQuality::speed) = {7, std::nullopt};
-        ask(fast);
-        QCOMPARE(kindsShown(panel).size(), 3);  // lost, turns back, and the meeting for one of the two
-        QCOMPARE(panel.headerText(), QStringLiteral("0 of 9 judged · 3 of 9 shown · 6 hidden by the filter on tracks"));
-        panel.kinds().setShown(static_cast<int>(EventKind::stops), false);
-        QVERIFY2(!panel.headerText().contains(QStringLiteral("hidden by")), "stops are not wanted anyway");
-        panel.kinds().showAll();
-
-        // Times are those of the event, and "now" is when it happens.
-        TrackFilter early;
-        early.time.to = TimeLimit{10, false};
-        ask(early);
-        QCOMPARE(kindsShown(panel), QStringList({QStringLiteral("Stops"), QStringLiteral("Stops")}));
-        TrackFilter standing;
-        standing.conditions = {TrackCondition::stands_now};
-        ask(standing);
-        QCOMPARE(kindsShown(panel).filter(QStringLiteral("Stops")).size(), 6);
-        QVERIFY(!kindsShown(panel).contains(QStringLiteral("Lost")));
-
-        TrackFilter none;
-        none.range(TrackQuality::speed) = {900, std::nullopt};
-        int cleared = 0;
-        ask(none, [&] {
-            ++cleared;
-            panel.setQuery(nullptr, {});
-        });
-        QVERIFY(test::says(panel, QStringLiteral("or by the filter on tracks")));
-        QVERIFY(test::press(panel, QStringLiteral("Show all")));
-        QCOMPARE(cleared, 1);
-        QCOMPARE(kindsShown(panel).size(), 9);
-    }
-
-    void whatCouldNotBeSearchedIsHiddenByATimeAlone() {
-        EventsModel model;
-        EventsPanel panel(&model, *actions_);
-        give(model, found(someEvents(), 100, false));
-        const QString unsearched = QStringLiteral("Not searched");
-        const qsizetype all = kindsShown(panel).count(unsearched);
-        QVERIFY(all > 0);
-        TrackFilter filter;
-        filter.range(TrackQuality::speed) = {900, std::nullopt};
-        const auto ask = [&] {
-            panel.setQuery(std::make_shared<const TrackQuery>(filter, std::vector<TrackSummary>(), SceneScale(),
-                                                              TrackQuery::Known(), FrameOfDay()),
-                           [] {});
-        };
-        ask();
-        QCOMPARE(kindsShown(panel).count(unsearched), all);
-        filter.time.from = TimeLimit{1000, false};
-        ask();
-        QCOMPARE(kindsShown(panel).count(unsearched), qsizetype(0));
-    }
-
-    void whereAllIsHiddenItSaysSoAndShowsItAgain() {
-        EventsModel model;
-        EventsPanel panel(&model, *actions_);
-        give(model, found(someEvents()));
-        panel.resize(400, 400);
-        panel.show();
-        panel.kinds().showAll(false);
-        QVERIFY(kindsShown(panel).isEmpty());
-        QVERIFY(!panel.table()->isVisible());
-        QVERIFY(test::says(panel, QStringLiteral("All 8 events")));
-        QVERIFY(test::press(panel, QStringLiteral("Show all")));
-        QCOMPARE(kindsShown(panel).size(), 8);
-    }
-
-    void theNextToJudgeIsTheNextOneShown() {
-        EventsModel model;
-        EventsPanel panel(&model, *actions_);
-        give(model, found(someEvents()));
-        const auto id = [&](int row) { return model.recordAt(row)->id; };
-        judge(model, 1, Judgement::unsure);
-        QCOMPARE(panel.nextOpen({id(0)}), std::optional(id(2)));
-        QCOMPARE(panel.nextOpen({id(7)}), std::optional(id(0)));  // around
-        panel.kinds().setShown(static_cast<int>(EventKind::stops), false);
-        QCOMPARE(panel.nextOpen({id(0)}), std::nullopt);
-        panel.selectId(id(0));
-        QCOMPARE(panel.neighbour(1), std::optional(id(1)));
-        QCOMPARE(panel.neighbour(-1), std::nullopt);
-    }
-
     void anEventStaysSelectedWhenLimitsChange() {
         EventsModel model;
         EventsPanel panel(&model, *actions_);
@@ -492,37 +303,6 @@ class EventsListTest : public QObject {
         QVERIFY(QTest::qWaitFor([&] { return edited.count() == 1; }, test::kPatience_ms));
         QCOMPARE(edited.front().front().toInt(), id);
         QCOMPARE(edited.front().back().toString(), QStringLiteral("white van"));
-    }
-
-    void limitsAreKeptAndShownWithTheirCounts() {
-        {
-            EventThresholds limits;
-            QSignalSpy edited(&limits, &EventThresholds::edited);
-            limits.setValue(QStringLiteral("events.over"), QStringLiteral("70"));
-            QCOMPARE(edited.count(), 1);
-            QCOMPARE(limits.options().over_kmh, 70.0);
-            limits.setValue(QStringLiteral("events.over"), QStringLiteral("fast"));
-            QCOMPARE(edited.count(), 1);
-            EventKindsButton::Counts counts{};
-            counts.at(static_cast<std::size_t>(EventKind::over_speed)) = 12;
-            limits.setCounts(counts);
-            bool told = false;
-            for (const auto* title : limits.findChildren<QToolButton*>())
-                told = told || title->text() == QStringLiteral("Over speed 12, Under speed 0");
-            QVERIFY(told);
-        }
-        EventThresholds limits;
-        QCOMPARE(limits.options().over_kmh, 70.0);
-        limits.resetAll();
-        QCOMPARE(limits.options().over_kmh, EventOptions().over_kmh);
-        QCOMPARE(EventThresholds().options().over_kmh, EventOptions().over_kmh);
-    }
-
-    void everyLimitIsInTheForm() {
-        const EventThresholds limits;
-        EventOptions options;
-        QCOMPARE(limits.findChildren<ParameterRow*>().size(),
-                 static_cast<qsizetype>(listParameters(describeOf(options)).size()));
     }
 
     void tenThousandEventsAreLittleWork() {

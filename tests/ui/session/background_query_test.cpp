@@ -188,6 +188,18 @@ class BackgroundQueryTest : public QObject {
         QVERIFY(!second);
     }
 
+    void anOwnerThatGoesCanHaveDoneWhatWasPosted() {
+        std::atomic<int> done = 0;
+        {
+            BackgroundQuery query;
+            query.finishPosted();  // nothing is to do
+            for (int i = 0; i < 20; ++i) query.post([&](const BackgroundTask&) { ++done; });
+            query.finishPosted();
+            QCOMPARE(done.load(), 20);
+        }
+        QCOMPARE(done.load(), 20);
+    }
+
     void theOwnerMayGoWhenItIsAnswered() {
         auto query = std::make_unique<BackgroundQuery>();
         bool second = false;

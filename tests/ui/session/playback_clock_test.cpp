@@ -30,6 +30,16 @@ class PlaybackClockTest : public QObject {
         QVERIFY(clock.ended(1'250'000));
     }
 
+    void doesNotWaitWhereTheClockLeapsAhead() {
+        constexpr std::int64_t kHour_us = 3'600'000'000;
+        PlaybackClock clock = clockOf({0, 40'000, 80'000, kHour_us, kHour_us + 40'000, kHour_us + 80'000});
+        clock.start(0, 1, 0);
+        QCOMPARE(clock.frameAt(119'000), 2);
+        QCOMPARE(clock.frameAt(121'000), 3);
+        QCOMPARE(clock.frameAt(161'000), 4);
+        QVERIFY(clock.ended(241'000));
+    }
+
     void speedScalesTime() {
         PlaybackClock clock = clockOf({0, 40'000, 80'000, 120'000});
         clock.start(1, 4, 0);

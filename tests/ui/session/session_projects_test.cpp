@@ -1,3 +1,5 @@
+#include <fstream>
+
 #include "session/project/project_location.h"
 #include "store/labels/annotation_store.h"
 #include "ui/session/session_support.h"
@@ -23,13 +25,18 @@ class SessionProjectsTest : public QObject {
         return ready.wait(kPatience_ms);
     }
     /// A folder of images whose project, beside it, holds a run.
-    std::filesystem::path folderWithRun(int frames = 12) {
-        const auto folder = test::writeScene(*home_ / "flights" / "images", frames);
+    std::filesystem::path folderWithRun(int frames = 12, const std::string& name = "images") {
+        const auto folder = test::writeScene(*home_ / "flights" / name, frames);
         ProjectSession session;
         if (!open(session, folder) || !runAndWait(session)) return {};
         return folder;
     }
-    std::filesystem::path project() { return *home_ / "flights" / "images.eyrie"; }
+    std::filesystem::path project(const std::string& name = "images") { return *home_ / "flights" / (name + ".eyrie"); }
+    /// Whether what is done in the lists of the project that is shown arrives there.
+    static bool listsAreOpen(ProjectSession& session) {
+        session.renameRun(session.runs().front().id, QStringLiteral("renamed"));
+        return waitFor([&] { return session.runs().front().name == "renamed"; });
+    }
 
  private slots:
     void init() { home_ = std::make_unique<test::OwnHome>(); }
@@ -156,6 +163,48 @@ class SessionProjectsTest : public QObject {
         }));
         QVERIFY(open(again, project()));
         QVERIFY(!again.videoMissing());
+    }
+
+    void aProjectThatCannotBeOpenedLeavesTheFormerOneAsItWas() {
+        const auto folder = folderWithRun();
+        QVERIFY(!folder.empty());
+        ProjectSession session;
+        QVERIFY(open(session, folder));
+        const auto broken = *home_ / "broken.eyrie";
+        std::ofstream(broken) << "no project";
+        QSignalSpy problem(&session, &ProjectSession::problem);
+        session.openProject(broken);
+        QVERIFY(problem.wait(kPatience_ms));
+        QCOMPARE(session.project(), project());
+        QVERIFY(session.currentRun());
+        QVERIFY(listsAreOpen(session));
+    }
+
+    void ofTwoProjectsTheOneAskedForLastIsShownWithItsVideo() {
+        QVERIFY(!folderWithRun().empty() && !folderWithRun(10, "second").empty() && !folderWithRun(8, "third").empty());
+        ProjectSession session;
+        QVERIFY(open(session, *home_ / "flights" / "images"));
+        session.openProject(project("second"));
+        session.openProject(project("third"));
+        const std::string third = (*home_ / "flights" / "third").string();
+        QVERIFY(waitFor([&] { return session.project() == project("third") && session.media()->identity == third; }));
+        QVERIFY(session.currentRun() && !session.opening());
+        QCOMPARE(session.runs().front().sequence.path, third);
+        QVERIFY(listsAreOpen(session));
+    }
+
+    void aProjectThatAVideoOvertookDoesNotComeBetween() {
+        QVERIFY(!folderWithRun().empty() && !folderWithRun(10, "second").empty());
+        ProjectSession session;
+        QVERIFY(open(session, *home_ / "flights" / "images"));
+        QSignalSpy problem(&session, &ProjectSession::problem);
+        session.openProject(project("second"));
+        session.open(*home_ / "flights" / "nothing.mp4");  // which cannot be opened
+        QVERIFY(problem.wait(kPatience_ms));
+        QVERIFY(listsAreOpen(session));
+        QCOMPARE(session.project(), project());
+        QCOMPARE(session.runs().front().sequence.path, session.media()->identity);
+        QCOMPARE(session.media()->identity, (*home_ / "flights" / "images").string());
     }
 
     void theGsdFollowsTheRunThatIsShown() {

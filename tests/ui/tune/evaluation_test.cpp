@@ -261,6 +261,18 @@ class EvaluationTest : public QObject {
         QVERIFY(!window->overlays().style().detail.labels);
     }
 
+    void aPreviewIsSeenThoughErrorsAreLookedAt() {
+        const auto window = evaluatingWindow();
+        QVERIFY(window);
+        QVERIFY(!window->overlays().isVisible(TrackLayer::kKind));
+        window->evaluation().setPreviewed(true);
+        QVERIFY2(window->overlays().isVisible(TrackLayer::kKind),
+                 "verdicts are of the stored run: nothing would be seen");
+        window->evaluation().setPreviewed(false);
+        QVERIFY(!window->overlays().isVisible(TrackLayer::kKind));
+        QVERIFY(window->overlays().isVisible(VerdictLayer::kKind));
+    }
+
     void fullScreenLeavesErrorsAloneAndOverlaysHidden() {
         const auto window = evaluatingWindow();
         QVERIFY(window);

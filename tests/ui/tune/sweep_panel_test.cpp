@@ -9,11 +9,13 @@
 #include <QLabel>
 #include <QSignalSpy>
 #include <QTest>
+#include <QThread>
 #include <QTimer>
 #include <cmath>
 #include <csignal>
 #include <fstream>
 
+#include "store/sweeps/sweep_store.h"
 #include "tune/evaluate/evaluation_panel.h"
 #include "tune/evaluate/truth_choice.h"
 #include "tune/sweep/sweep_form.h"
@@ -102,6 +104,27 @@ class SweepPanelTest : public QObject {
  private slots:
     void init() { home_ = std::make_unique<test::OwnHome>(); }
     void cleanup() { home_.reset(); }
+
+    void aSweepOfAProjectThatWasClosedIsNotShown() {
+        const auto window = windowWithRun(12);
+        QVERIFY(window);
+        const std::filesystem::path project = window->session().project();
+        SweepSession& sweeps = window->review().sweeps().sweeps();
+        sweeps.start(request({"gradient.quantile=0.1,0.2"}));
+        // The window does nothing meanwhile, so that it hears of the sweep only when the project is gone.
+        QElapsedTimer since;
+        since.start();
+        const auto begun = [&] {
+            ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
+            return !SweepStore(file).sweeps().empty();
+        };
+        while (!begun() && since.elapsed() < 4 * kPatience_ms) QThread::msleep(5);
+        QVERIFY(begun());
+        window->session().closeProject();
+        QVERIFY(waitFor([&] { return !sweeps.running(); }));
+        QVERIFY(!sweeps.table());
+        QVERIFY(sweeps.sweeps().empty());
+    }
 
     void sweepsOverTheRunAndShowsTheCurveWithoutStoppingTheWindow() {
         const auto window = windowWithRun(40);
@@ -194,7 +217,8 @@ class SweepPanelTest : public QObject {
         SweepPanel& panel = window->review().sweeps();
         panel.sweeps().start(request({"gradient.quantile=0.11,0.23"}));
         QVERIFY(waitFor([&] { return !panel.sweeps().running(); }));
-        emit panel.chart().pointClicked(1);
+        emit panel.chart().pointClicked(0);
+        QTest::keyClick(&panel.chart(), Qt::Key_Right);
         for (auto* button : panel.findChildren<QAbstractButton*>())
             if (button->text() == QStringLiteral("Use for the next run")) button->click();
         QCOMPARE(window->session().settings().options.detection.gradient.quantile, 0.23);
@@ -212,6 +236,14 @@ class SweepPanelTest : public QObject {
         QCOMPARE(data.columns.size(), 3);
         QVERIFY(data.best_cell.has_value());
         for (const double cell : data.cells) QVERIFY(std::isfinite(cell));
+        emit panel.chart().pointClicked(0);
+        QSignalSpy chosen(&panel.chart(), &SweepChart::pointClicked);
+        QTest::keyClick(&panel.chart(), Qt::Key_Right);
+        QTest::keyClick(&panel.chart(), Qt::Key_Up);
+        QTest::keyClick(&panel.chart(), Qt::Key_Up);  // there is no further row
+        QCOMPARE(chosen.size(), 2);
+        QCOMPARE(chosen.at(0).at(0).toInt(), 1);
+        QCOMPARE(chosen.at(1).at(0).toInt(), 4);
     }
 
     void aCancelledOrClosedSweepIsResumed() {

@@ -52,6 +52,27 @@ class ModelsTest : public QObject {
         QCOMPARE(model.rowCount(), 0);
     }
 
+    void tracksAreSortedByWhatIsShownOfThem() {
+        SceneScale scale{0.25, 25, true};
+        scale.slope = ScaleSlope::ofPicture({200, 150}, 0, 0.01);
+        TrackSummary near = sampleTrack(1), far = sampleTrack(2);
+        near.place = {100, 140};
+        far.place = {100, 10};
+        near.mean_speed_px = 10;
+        far.mean_speed_px = 6;
+        near.mean_length_px = 30;
+        far.mean_length_px = 20;
+        near.mean_width_px = 12;
+        far.mean_width_px = 9;
+        TracksModel model;
+        model.setTracks({near, far}, scale);
+        for (const int column : {TracksModel::speed_column, TracksModel::length_column, TracksModel::width_column}) {
+            QVERIFY(cell(model, 0, column).toDouble() < cell(model, 1, column).toDouble());
+            QVERIFY(model.index(0, column).data(sort_role).toDouble() <
+                    model.index(1, column).data(sort_role).toDouble());
+        }
+    }
+
     void tracksTellWhenTheyWereSeenWhereThatIsKnown() {
         TracksModel model;
         model.setTracks({sampleTrack(3)}, {});

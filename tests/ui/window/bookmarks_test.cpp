@@ -3,6 +3,7 @@
 #include <QLineEdit>
 #include <QTableView>
 #include <QTest>
+#include <utility>
 
 #include "canvas/timeline/timeline_view.h"
 #include "review/bookmarks/bookmarks.h"
@@ -67,6 +68,36 @@ class BookmarksTest : public QObject {
         QCOMPARE(bookmark.seconds, 12 / 25.0);
         QCOMPARE(bookmark.note, "blue van");
         QVERIFY(!bookmark.when_utc.empty());
+    }
+
+    void bookmarksAreMadeAndTakenBackAlsoBeforeTheTracksAreRead() {
+        ProjectSession session;
+        QVERIFY(test::openAndWait(session, test::sceneUnderTest(30)) && test::runAndWait(session));
+        EventReview* review = nullptr;
+        bool marked = false;
+        double seconds = -1;
+        std::size_t left = 2;
+        const auto mark_at_once = [&] {
+            if (review == nullptr || !review->canMark() || review->tracks() || std::exchange(marked, true)) return;
+            review->setBookmark(4, {});
+            review->setBookmark(12, QStringLiteral("blue van"));
+            seconds = review->bookmarks().rbegin()->second.seconds;
+            review->undo();
+            left = review->bookmarks().size();
+        };
+        const EventReviewAnswers answers{.show_events = [] {},
+                                         .show_verdicts = [](const std::vector<std::size_t>&) {},
+                                         .show_zones = mark_at_once,
+                                         .go_back_to = [](const std::vector<std::size_t>&) {},
+                                         .tell_problem = [](const QString&) {},
+                                         .tell_notice = [](const QString&) {}};
+        EventReview events(session, answers);
+        review = &events;
+        events.setWanted();
+        QVERIFY(QTest::qWaitFor([&] { return events.state() == EventReview::State::found; }, kPatience_ms));
+        QVERIFY(marked);
+        QCOMPARE(seconds, 12 / 25.0);
+        QCOMPARE(left, std::size_t(1));
     }
 
     void aMarkedFrameHasOneBookmarkWhoseNoteChanges() {

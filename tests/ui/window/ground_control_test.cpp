@@ -18,6 +18,7 @@
 #include "ui/window/flown_video.h"
 #include "ui/window/window_with_run.h"
 #include "widgets/message_bar.h"
+#include "window/docks/watching_docks.h"
 #include "workspace/window_actions.h"
 
 namespace eyrie::ui::ground_control_test {
@@ -31,7 +32,7 @@ class GroundControlTest : public QObject {
     std::unique_ptr<test::OwnHome> home_;
     static inline const std::vector<QPointF> kCorners{{20, 20}, {220, 25}, {210, 160}, {15, 150}};
 
-    static GroundControl& control(MainWindow& window) { return window.earth().control(); }
+    static GroundControl& control(MainWindow& window) { return window.watching().earth().control(); }
     static bool goTo(MainWindow& window, FrameIndex frame) {
         window.session().goToFrame(frame);
         return test::shows(window.session(), frame);
@@ -66,7 +67,7 @@ class GroundControlTest : public QObject {
         return QTest::qWaitFor([&] { return control(window).panel().state().contains(words); }, kPatience_ms);
     }
     static double metresOff(MainWindow& window, FrameIndex frame, QPointF px) {
-        const auto place = window.earth().earth().placeOf(frame, px);
+        const auto place = window.watching().earth().earth().placeOf(frame, px);
         return place ? cv::norm(LocalPlane(test::flownPlace(frame, {px.x(), px.y()})).metresOf(*place)) : 1e9;
     }
     static bool tells(MainWindow& window, const QString& words) {
@@ -121,7 +122,7 @@ class GroundControlTest : public QObject {
         QVERIFY(isStored(*window, 4));
         QVERIFY(says(*window, QStringLiteral("a pixel is 0.5")));
         QVERIFY(metresOff(*window, 0, {100, 90}) < 0.5);
-        QVERIFY(!window->earth().earth().placeOf(30, {100, 90}));
+        QVERIFY(!window->watching().earth().earth().placeOf(30, {100, 90}));
     }
 
     void whatIsWrongIsSaidPlainly() {

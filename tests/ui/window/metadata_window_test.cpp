@@ -21,6 +21,7 @@
 #include "ui/window/window_with_run.h"
 #include "widgets/empty_state.h"
 #include "window/docks/review_docks.h"
+#include "window/docks/watching_docks.h"
 #include "workspace/dock_registry.h"
 
 namespace eyrie::ui::metadata_window_test {
@@ -41,7 +42,7 @@ class MetadataWindowTest : public QObject {
         if (!QTest::qWaitForWindowActive(window.get())) return nullptr;
         if (!test::openAndWait(window->session(), videoMedia(video))) return nullptr;
         window->docks().raise(DockId::metadata);
-        if (!QTest::qWaitFor([&] { return window->earth().earth().metadata() != nullptr; }, kPatience_ms))
+        if (!QTest::qWaitFor([&] { return window->watching().earth().earth().metadata() != nullptr; }, kPatience_ms))
             return nullptr;
         return window;
     }
@@ -96,18 +97,19 @@ class MetadataWindowTest : public QObject {
         QCOMPARE(cell(*window, QStringLiteral("time")), QStringLiteral("2009-01-12T22:08:23.200Z"));
         const double east_m = (degrees(*window, QStringLiteral("corner 1 longitude")) - before) * 74'600;
         QVERIFY2(qAbs(east_m - 15) < 0.5, qPrintable(QString::number(east_m)));
-        const QString summary = window->earth().metadata().summary();
+        const QString summary = window->watching().earth().metadata().summary();
         QVERIFY2(summary.contains(QStringLiteral("40 sets, 100 % of the video covered")), qPrintable(summary));
         QVERIFY(!summary.contains(QStringLiteral("damaged")));
-        QVERIFY(!window->earth().metadata().streams().isVisible());
+        QVERIFY(!window->watching().earth().metadata().streams().isVisible());
     }
 
     void whatIsDamagedIsCountedAndTheRestCounts() {
         const auto window = windowOver(test::writeFlownVideo(*home_ / "", kFlownFrames, 3));
         QVERIFY(window);
-        QTRY_VERIFY_WITH_TIMEOUT(window->earth().metadata().summary().contains(QStringLiteral("3 damaged, skipped")),
-                                 kPatience_ms);
-        QVERIFY(window->earth().metadata().summary().contains(QStringLiteral("37 sets")));
+        QTRY_VERIFY_WITH_TIMEOUT(
+            window->watching().earth().metadata().summary().contains(QStringLiteral("3 damaged, skipped")),
+            kPatience_ms);
+        QVERIFY(window->watching().earth().metadata().summary().contains(QStringLiteral("37 sets")));
         QCOMPARE(cell(*window, QStringLiteral("mission")), QStringLiteral("OUTBOUND"));
     }
 
@@ -127,7 +129,7 @@ class MetadataWindowTest : public QObject {
     void theInspectorTellsTheCourseFromNorth() {
         const auto window = windowOver(test::writeFlownVideo(*home_ / "", kFlownFrames));
         QVERIFY(window);
-        const VideoEarth& earth = window->earth().earth();
+        const VideoEarth& earth = window->watching().earth().earth();
         // The top of the picture is north: what points right drives east.
         const double kQuarter = std::numbers::pi / 2;
         for (int turn = 0; turn < 4; ++turn) {
@@ -169,9 +171,9 @@ class MetadataWindowTest : public QObject {
         QVERIFY(qAbs(window->session().shownRun()->scale.gsd_m_per_px - test::kFlownPixel_m) < 0.005);
         const auto* gsd = window->findChild<QLineEdit*>(QStringLiteral("gsd"));
         QVERIFY2(gsd->placeholderText().endsWith(tr("from the metadata")), qPrintable(gsd->placeholderText()));
-        const auto told = [&] { return window->earth().earth().origin(); };
+        const auto told = [&] { return window->watching().earth().earth().origin(); };
         QTRY_VERIFY_WITH_TIMEOUT(told().contains(QStringLiteral("steadied by the registration")), kPatience_ms);
-        const auto place = window->earth().earth().placeOf(25, {100, 90});
+        const auto place = window->watching().earth().earth().placeOf(25, {100, 90});
         QVERIFY(metresApart(place, test::flownPlace(25, {100, 90})) < 0.6);
     }
 
@@ -179,7 +181,7 @@ class MetadataWindowTest : public QObject {
         const auto window = test::windowWithRun();
         QVERIFY(window);
         window->docks().raise(DockId::metadata);
-        const auto text = [&] { return window->earth().metadata().emptyState()->explanation(); };
+        const auto text = [&] { return window->watching().earth().metadata().emptyState()->explanation(); };
         QTRY_VERIFY_WITH_TIMEOUT(text().contains(QStringLiteral("carries no metadata (KLV).")), kPatience_ms);
         QVERIFY(text().contains(QStringLiteral("by hand")));
         pointAt(*window, {60, 40});
@@ -202,10 +204,11 @@ class MetadataWindowTest : public QObject {
         QVERIFY(window);
         QVERIFY(goTo(*window, 20));
         const auto apart = [&] {
-            return metresApart(window->earth().earth().placeOf(20, {100, 90}), test::flownPlace(20, {100, 90}));
+            return metresApart(window->watching().earth().earth().placeOf(20, {100, 90}),
+                               test::flownPlace(20, {100, 90}));
         };
         QTRY_VERIFY_WITH_TIMEOUT(apart() < 1, kPatience_ms);
-        QVERIFY(window->earth().earth().origin().contains(QStringLiteral("4 control points")));
+        QVERIFY(window->watching().earth().earth().origin().contains(QStringLiteral("4 control points")));
         QTRY_VERIFY(window->canvas().frame().north_deg.has_value());
     }
 
@@ -217,16 +220,16 @@ class MetadataWindowTest : public QObject {
         std::filesystem::copy_file(given, video);
         const auto window = windowOver(video);
         QVERIFY(window);
-        QTRY_COMPARE_WITH_TIMEOUT(window->earth().metadata().streams().count(), 3, kPatience_ms);
-        QVERIFY(window->earth().metadata().streams().isVisible());
-        const int used = window->earth().metadata().streams().currentIndex();
-        QTRY_VERIFY(window->earth().metadata().model().rowCount() > 0);
-        const QString summary = window->earth().metadata().summary();
-        window->earth().metadata().streams().setCurrentIndex((used + 1) % 3);
-        QVERIFY(window->earth().metadata().summary() != summary);
+        QTRY_COMPARE_WITH_TIMEOUT(window->watching().earth().metadata().streams().count(), 3, kPatience_ms);
+        QVERIFY(window->watching().earth().metadata().streams().isVisible());
+        const int used = window->watching().earth().metadata().streams().currentIndex();
+        QTRY_VERIFY(window->watching().earth().metadata().model().rowCount() > 0);
+        const QString summary = window->watching().earth().metadata().summary();
+        window->watching().earth().metadata().streams().setCurrentIndex((used + 1) % 3);
+        QVERIFY(window->watching().earth().metadata().summary() != summary);
         // Going on in the video keeps the choice.
         QVERIFY(goTo(*window, 5));
-        QCOMPARE(window->earth().metadata().streams().currentIndex(), (used + 1) % 3);
+        QCOMPARE(window->watching().earth().metadata().streams().currentIndex(), (used + 1) % 3);
     }
 };
 

@@ -13,6 +13,7 @@
 #include "ui/support/ui_test.h"
 #include "ui/window/flown_video.h"
 #include "widgets/message_bar.h"
+#include "window/docks/watching_docks.h"
 #include "window/main_window.h"
 
 namespace eyrie::ui::parts_window_test {
@@ -73,10 +74,12 @@ class PartsWindowTest : public QObject {
         window.show();
         QVERIFY(opens(window, flown()));
         QCOMPARE(window.session().video()->frame_count, 2 * kFrames);
-        QVERIFY(QTest::qWaitFor([&] { return !window.earth().earth().clockText(0).isEmpty(); }, kPatience_ms));
-        QCOMPARE(window.earth().earth().clockText(5), QStringLiteral("2009-01-12 22:08:22.200 UTC"));
-        QCOMPARE(window.earth().earth().clockText(kFrames + 5), QStringLiteral("2009-01-12 22:08:22.200 UTC"));
-        QCOMPARE(window.earth().earth().clockOrigin(), QStringLiteral("the video's metadata"));
+        QVERIFY(
+            QTest::qWaitFor([&] { return !window.watching().earth().earth().clockText(0).isEmpty(); }, kPatience_ms));
+        QCOMPARE(window.watching().earth().earth().clockText(5), QStringLiteral("2009-01-12 22:08:22.200 UTC"));
+        QCOMPARE(window.watching().earth().earth().clockText(kFrames + 5),
+                 QStringLiteral("2009-01-12 22:08:22.200 UTC"));
+        QCOMPARE(window.watching().earth().earth().clockOrigin(), QStringLiteral("the video's metadata"));
         window.session().goToFrame(kFrames + 10);
         QVERIFY(test::shows(window.session(), kFrames + 10));
         QVERIFY(statusSays(window, QStringLiteral("2009-01-12 22:08:22.400 UTC")));

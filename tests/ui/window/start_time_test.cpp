@@ -19,6 +19,7 @@
 #include "ui/support/ui_test.h"
 #include "ui/window/window_with_run.h"
 #include "window/docks/review_docks.h"
+#include "window/docks/watching_docks.h"
 #include "workspace/dock_registry.h"
 #include "workspace/window_actions.h"
 
@@ -34,7 +35,7 @@ class StartTimeTest : public QObject {
 
     static inline const QDateTime kBegin{QDate(2026, 11, 21), QTime(8, 0, 0), Qt::UTC};
 
-    static VideoEarth& earth(MainWindow& window) { return window.earth().earth(); }
+    static VideoEarth& earth(MainWindow& window) { return window.watching().earth().earth(); }
     /// The dialog of the command; the test ends where it does not come.
     static StartTimeDialog* ask(MainWindow& window) {
         if (!window.actions().start_time->isEnabled()) return nullptr;

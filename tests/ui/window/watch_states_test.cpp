@@ -13,6 +13,7 @@
 #include "ui/session/session_support.h"
 #include "ui/support/ui_test.h"
 #include "widgets/message_bar.h"
+#include "window/docks/watching_docks.h"
 #include "window/main_window.h"
 #include "workspace/dock_registry.h"
 #include "workspace/window_actions.h"
@@ -113,7 +114,7 @@ class WatchStatesTest : public QObject {
         QVERIFY(window);
         QVERIFY(window->workspaces().current() == WorkspaceKind::tune);
         QVERIFY(test::runAndWait(window->session()));
-        QTRY_VERIFY_WITH_TIMEOUT(window->ground().ground() != nullptr, kPatience_ms);
+        QTRY_VERIFY_WITH_TIMEOUT(window->watching().ground().ground() != nullptr, kPatience_ms);
         QVERIFY(window->actions().steady->isEnabled());
     }
 
@@ -141,15 +142,15 @@ class WatchStatesTest : public QObject {
         QVERIFY(window);
         window->session().settings().options.finishing.min_score = 1;
         QVERIFY(test::runAndWait(window->session()));
-        QTRY_VERIFY_WITH_TIMEOUT(window->ground().ground() != nullptr, kPatience_ms);
+        QTRY_VERIFY_WITH_TIMEOUT(window->watching().ground().ground() != nullptr, kPatience_ms);
         window->session().goToFrame(20);
         QVERIFY(test::shows(window->session(), 20));
         QTRY_VERIFY_WITH_TIMEOUT(!window->session().viewFrame().doubtful.empty(), kPatience_ms);
         const TrackState left_out = window->session().viewFrame().doubtful.front();
         QVERIFY(stateOf(window->session().viewFrame(), left_out.id) != nullptr);
         window->session().selectTrack(left_out.id);
-        QVERIFY(window->card().card().subject().has_value());
-        QVERIFY(window->card().card().subject()->title.contains(QStringLiteral("left out of the result")));
+        QVERIFY(window->watching().card().card().subject().has_value());
+        QVERIFY(window->watching().card().card().subject()->title.contains(QStringLiteral("left out of the result")));
         window->actions().follow_object->trigger();
         const QPointF at = window->canvas().transform().viewFromImage({left_out.box.centre.x, left_out.box.centre.y});
         QVERIFY(QLineF(at, QRectF(window->canvas().rect()).center()).length() < 2);
@@ -162,10 +163,10 @@ class WatchStatesTest : public QObject {
         }));
         QVERIFY(window);
         QVERIFY(test::runAndWait(window->session()));
-        QTRY_VERIFY_WITH_TIMEOUT(window->ground().ground() != nullptr, kPatience_ms);
+        QTRY_VERIFY_WITH_TIMEOUT(window->watching().ground().ground() != nullptr, kPatience_ms);
         *broken = true;
         window->actions().show_mosaic->trigger();
-        MosaicPanel& panel = window->mosaic();
+        MosaicPanel& panel = window->watching().mosaic();
         QTRY_VERIFY_WITH_TIMEOUT(test::says(panel, QStringLiteral("could not be laid out: the video ends")),
                                  kPatience_ms);
         *broken = false;

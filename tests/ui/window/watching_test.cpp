@@ -26,6 +26,7 @@
 #include "ui/support/ui_test.h"
 #include "widgets/message_bar.h"
 #include "window/bars/picture_button.h"
+#include "window/docks/watching_docks.h"
 #include "window/main_window.h"
 #include "workspace/dock_registry.h"
 #include "workspace/window_actions.h"
@@ -62,7 +63,7 @@ class WatchingTest : public QObject {
     }
     QPointF inView(QPointF image) { return canvas().transform().viewFromImage(image); }
     void click(QPointF image) { QTest::mouseClick(&canvas(), Qt::LeftButton, {}, inView(image).toPoint()); }
-    QString measured() { return window_->watching().measureTool().text(); }
+    QString measured() { return window_->watching().commands().measureTool().text(); }
     bool tells(const QString& words) {
         const QStringList texts = window_->messages().texts();
         return std::any_of(texts.begin(), texts.end(), [&](const QString& text) { return text.contains(words); });
@@ -78,7 +79,7 @@ class WatchingTest : public QObject {
         QVERIFY(test::openAndWait(window_->session(), test::sceneUnderTest(60)));
         QVERIFY(!actions().steady->isEnabled());  // nothing is known of the ground yet
         QVERIFY(test::runAndWait(window_->session()));
-        QTRY_VERIFY_WITH_TIMEOUT(window_->ground().ground() != nullptr, kPatience_ms);
+        QTRY_VERIFY_WITH_TIMEOUT(window_->watching().ground().ground() != nullptr, kPatience_ms);
     }
     void cleanupTestCase() {
         window_.reset();

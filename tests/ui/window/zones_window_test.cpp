@@ -254,14 +254,15 @@ class ZonesWindowTest : public QObject {
     }
 
     void filesGoInAndOut() {
-        const auto window = windowWithRun();
+        auto window = windowWithRun();
         QVERIFY(window);
         drawZone(*window);
         ZoneReview& review = window->events().zones();
         const auto at = [this](const char* name) { return QString::fromStdString((*home_ / name).string()); };
         review.writeFile(at("zones.json"));
-        QVERIFY2(std::filesystem::exists(*home_ / "zones.json"), "it is there should the window be closed now");
-        QVERIFY(tells(*window, QStringLiteral("--zone")));
+        QVERIFY2(!tells(*window, QStringLiteral("--zone")), "the window does not wait for the disk");
+        QTRY_VERIFY_WITH_TIMEOUT(tells(*window, QStringLiteral("--zone")), kPatience_ms);
+        QVERIFY(std::filesystem::exists(*home_ / "zones.json"));
         review.readFile(at("zones.json"));
         QTRY_VERIFY_WITH_TIMEOUT(tells(*window, QStringLiteral("are here already")), kPatience_ms);
         QCOMPARE(zones(*window).size(), std::size_t(1));
@@ -281,8 +282,11 @@ class ZonesWindowTest : public QObject {
         QTRY_VERIFY_WITH_TIMEOUT(tells(*window, QStringLiteral("There is a zone \"zone 1\" already")), kPatience_ms);
         QVERIFY2(!tells(*window, QStringLiteral("equal.json")), "nothing of it was read");
         review.writeFile(at("no/where.json"));
-        QVERIFY(tells(*window, QStringLiteral("no/where.json")));
+        QTRY_VERIFY_WITH_TIMEOUT(tells(*window, QStringLiteral("no/where.json")), kPatience_ms);
         QCOMPARE(zones(*window).size(), std::size_t(1));
+        review.writeFile(at("last.json"));
+        window.reset();
+        QVERIFY2(std::filesystem::exists(*home_ / "last.json"), "closing the window loses nothing");
     }
 
     void aRenamedZoneKeepsItsVerdicts() {

@@ -4,6 +4,8 @@
 #include <QRectF>
 #include <QString>
 
+#include "canvas/drawing/mark_colours.h"
+
 namespace eyrie::ui {
 
 enum class HintEdge { lower, upper };
@@ -14,7 +16,7 @@ inline void paintToolHint(QPainter& painter, const QRectF& view, HintEdge edge, 
     const int flags = Qt::AlignHCenter | (edge == HintEdge::lower ? Qt::AlignBottom : Qt::AlignTop) | Qt::TextWordWrap;
     const QRectF plate = painter.fontMetrics().boundingRect(room.toRect(), flags, text);
     painter.setPen(Qt::NoPen);
-    painter.setBrush(QColor(12, 12, 14, 200));
+    painter.setBrush(edgeColour(200));
     painter.drawRoundedRect(plate.adjusted(-10, -5, 10, 5), 4, 4);
     painter.setPen(Qt::white);
     painter.drawText(plate, flags, text);

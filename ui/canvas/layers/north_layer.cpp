@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "canvas/drawing/edged_painter.h"
+#include "canvas/drawing/mark_colours.h"
 
 namespace eyrie::ui {
 
@@ -18,7 +19,7 @@ constexpr double kHead = 8;
 constexpr double kLetter = 16;
 constexpr double kHeadAngle = 2.6;  ///< radians between the arrow and the sides of its head
 constexpr double kStep_px = 8;      ///< of the picture, over which its direction is taken
-const QColor kPlateGround(12, 12, 14, 150);
+constexpr int kPlateAlpha = 150;
 
 QPointF along(double angle, double distance) {
     return {distance * std::cos(angle), distance * std::sin(angle)};
@@ -35,7 +36,7 @@ void NorthLayer::paint(QPainter& painter, const OverlayScene& scene) const {
     const double angle = std::atan2(in_view.y(), in_view.x());
     const QPointF centre(scene.view.right() - kFromEdge - kPlate, scene.view.top() + kFromEdge + kPlate);
     painter.setPen(Qt::NoPen);
-    painter.setBrush(kPlateGround);
+    painter.setBrush(edgeColour(kPlateAlpha));
     painter.drawEllipse(centre, kPlate, kPlate);
     painter.setBrush(Qt::NoBrush);
     const QPointF tip = centre + along(angle, kTip);

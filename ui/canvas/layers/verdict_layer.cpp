@@ -7,6 +7,7 @@
 
 #include "canvas/drawing/caption_placer.h"
 #include "canvas/drawing/edged_painter.h"
+#include "canvas/drawing/mark_colours.h"
 
 namespace eyrie::ui {
 
@@ -35,7 +36,7 @@ void paintTexts(QPainter& painter, const OverlayScene& scene) {
         const QSizeF size(metrics.horizontalAdvance(mark.text) + 6, metrics.height() + 1);
         const auto place = scene.captions.place(objects[i], size);
         if (!place) continue;
-        painter.fillRect(*place, QColor(12, 12, 14, 215));
+        painter.fillRect(*place, edgeColour(215));
         painter.setPen(verdictColour(mark.kind, scene.style.palette));
         painter.drawText(*place, Qt::AlignCenter, mark.text);
     }
@@ -61,7 +62,7 @@ void paintLegend(QPainter& painter, const OverlayScene& scene) {
     const QRectF frame(scene.view.left() + 8 + kLegendMargin, scene.view.top() + 8 + kLegendMargin,
                        width + kSwatch + 22, line * static_cast<double>(kinds.size()) + 8);
     painter.setPen(Qt::NoPen);
-    painter.setBrush(QColor(12, 12, 14, 200));
+    painter.setBrush(edgeColour(200));
     painter.drawRoundedRect(frame, 4, 4);
     painter.setBrush(Qt::NoBrush);
     for (int i = 0; i < kinds.size(); ++i) {

@@ -8,13 +8,13 @@
 
 #include "canvas/drawing/caption_placer.h"
 #include "canvas/drawing/edged_painter.h"
+#include "canvas/drawing/mark_colours.h"
 #include "canvas/upright_in_view.h"
 
 namespace eyrie::ui {
 
 namespace {
 
-const QColor kEdge(12, 12, 14);
 constexpr double kWidth = 1.6;
 constexpr double kSelectedWidth = 2.4;
 
@@ -70,11 +70,11 @@ void paintBoxes(QPainter& painter, const LabelScene& scene, const ViewTransform&
         for (const auto& [key, lines] : batches)
             if (std::get<0>(key) == selected)
                 drawEdgedLines(painter, lines,
-                               {QColor::fromRgba(std::get<2>(key)), kEdge, selected ? kSelectedWidth : kWidth,
+                               {QColor::fromRgba(std::get<2>(key)), edgeColour(), selected ? kSelectedWidth : kWidth,
                                 static_cast<Qt::PenStyle>(std::get<1>(key))});
         for (const auto& [key, lines] : flags)
             if (std::get<0>(key) == selected)
-                drawEdgedLines(painter, lines, {QColor::fromRgba(std::get<1>(key)), kEdge, 1.3});
+                drawEdgedLines(painter, lines, {QColor::fromRgba(std::get<1>(key)), edgeColour(), 1.3});
     }
 }
 
@@ -149,6 +149,15 @@ const LabelMark* markAt(const LabelScene& scene, QPointF image_point, double mar
         if (!mark.box.contains({image_point.x(), image_point.y()}, margin)) continue;
         if (hit == nullptr || rank(mark) < rank(*hit)) hit = &mark;
     }
+    return hit;
+}
+
+const LabelMark* proposalAt(const LabelScene& scene, QPointF image_point, double margin) {
+    const LabelMark* hit = nullptr;
+    for (const LabelMark& mark : scene.marks)
+        if (mark.kind == LabelKind::proposal && mark.box.contains({image_point.x(), image_point.y()}, margin) &&
+            (hit == nullptr || mark.box.area() < hit->box.area()))
+            hit = &mark;
     return hit;
 }
 

@@ -16,5 +16,7 @@ void paintLabels(QPainter& painter, const LabelScene& scene, const ViewTransform
 /// The mark under an image point, the smallest if several are; `margin` px around boxes count as hit. Objects win over
 /// proposals.
 const LabelMark* markAt(const LabelScene& scene, QPointF image_point, double margin);
+/// The smallest proposal under an image point, whatever objects lie there, too.
+const LabelMark* proposalAt(const LabelScene& scene, QPointF image_point, double margin);
 
 }  // namespace eyrie::ui

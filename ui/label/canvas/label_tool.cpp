@@ -9,12 +9,12 @@
 #include <utility>
 
 #include "canvas/drawing/edged_painter.h"
+#include "canvas/drawing/mark_colours.h"
 #include "label/canvas/label_layer.h"
 
 namespace eyrie::ui {
 
 namespace {
-const QColor kToolEdge(12, 12, 14);
 const QColor kRegionColour(255, 160, 40);
 constexpr double kHandleHitMargin = 4;    ///< logical px
 constexpr double kToolDragThreshold = 4;  ///< logical px
@@ -23,15 +23,22 @@ constexpr double kLeastMagnification = 6;
 constexpr double kMostMagnification = 16;
 constexpr int kNudged_ms = 1500;
 constexpr double kShortest = 2;  ///< px: clicks nearer than this are one
+
+/// Whether three of the corners are no line. An outline may cross itself: what it winds around is ignored.
+bool hasArea(const std::vector<cv::Point2d>& corners) {
+    for (std::size_t i = 2; i < corners.size(); ++i)
+        if (std::abs((corners[1] - corners[0]).cross(corners[i] - corners[0])) >= kShortest) return true;
+    return false;
+}
 }  // namespace
 
 LabelTool::LabelTool(QObject* parent) : QObject(parent), nudged_(kNudged_ms, [this] { emit repaintNeeded(); }) {}
 
 void LabelTool::setScene(LabelScene scene) {
-    const bool other_frame = scene.frame != scene_.frame;
+    const bool another = scene.frame != scene_.frame || scene.selected != scene_.selected;
     scene_ = std::move(scene);
-    // What was dragged in another frame must not be let go in this one.
-    if (other_frame && handle_) {
+    // What was dragged in another frame, or of another object, must not be let go here.
+    if (another && handle_) {
         handle_.reset();
         draft_.reset();
     }
@@ -55,8 +62,13 @@ void LabelTool::startRegion() {
 void LabelTool::finishRegion() {
     if (!region_) return;
     const std::vector<cv::Point2d> polygon = *region_;
+    if (!polygon.empty() && !hasArea(polygon)) {  // drawing goes on: what is there can be mended
+        region_refused_ = true;
+        emit repaintNeeded();
+        return;
+    }
     cancel();
-    if (polygon.size() >= 3) commands_.add_region(polygon, scene_.frame);
+    if (!polygon.empty()) commands_.add_region(polygon, scene_.frame);
 }
 
 void LabelTool::addRegionCorner(QPointF point) {
@@ -64,6 +76,7 @@ void LabelTool::addRegionCorner(QPointF point) {
     // The second click of a double one is no corner.
     if (!region_->empty() && cv::norm(region_->back() - corner) < kShortest) return;
     region_->push_back(corner);
+    region_refused_ = false;
     emit repaintNeeded();
 }
 
@@ -79,6 +92,7 @@ bool LabelTool::cancel() {
     const bool something = drawing_ || handle_ || region_;
     const bool was_region = std::exchange(region_, std::nullopt).has_value();
     const bool was_drawing = std::exchange(drawing_, false);
+    region_refused_ = false;
     redrawn_.reset();
     rear_.reset();
     front_.reset();
@@ -263,9 +277,10 @@ void LabelTool::leave() {
 }
 
 bool LabelTool::takeBack() {
-    if (region_ && !region_->empty())
+    if (region_ && !region_->empty()) {
         region_->pop_back();
-    else if (front_)
+        region_refused_ = false;
+    } else if (front_)
         front_.reset();
     else if (rear_)
         rear_.reset();
@@ -276,12 +291,25 @@ bool LabelTool::takeBack() {
     return true;
 }
 
-QString LabelTool::hint(const CanvasPlace&) const {
-    if (region_) return tr("Click the corners of the ignore region. Double-click: done · Esc: cancel");
+QString LabelTool::hint(const CanvasPlace& place) const {
+    if (region_) {
+        const QString begin = region_refused_ ? tr("An ignore region needs three corners that are not on one line.")
+                                              : tr("Click the corners of the ignore region.");
+        // Where the cross is, Enter clicks.
+        const QString done = place.by_keys ? tr("Double-click: done") : tr("Double-click or Enter: done");
+        return tr("%1 %2 · Backspace: remove the last one · Esc: cancel").arg(begin, done);
+    }
     if (!drawing_) return {};
-    if (front_) return tr("Click at the side of the object · Esc: cancel");
-    if (rear_) return tr("Click the front of the object (Shift: then its side) · Esc: cancel");
-    return tr("Click the rear of the object, or drag a box around it · Esc: cancel");
+    if (front_) return tr("Click a side of the object. Backspace: choose its front again · Esc: cancel");
+    if (rear_)
+        return tr("Click the front of the object (Shift: then a side). Backspace: choose its rear again · Esc: cancel");
+    return tr("Click the rear of the object, or drag a box around it. Esc: cancel");
+}
+
+bool LabelTool::finishByKey() {
+    if (!region_ || region_->empty()) return false;
+    finishRegion();
+    return true;
 }
 
 const QCursor* LabelTool::cursor() const {
@@ -311,11 +339,11 @@ void LabelTool::paint(QPainter& painter, const CanvasPlace& place) const {
         const OrientedBox& box = draft_ ? *draft_ : selected->box;
         const auto handles = boxHandles(box, place.transform);
         QVector<QLineF> arm{{handles[static_cast<std::size_t>(BoxHandle::front)].second, handles.back().second}};
-        drawEdgedLines(painter, arm, {selected->colour, kToolEdge, 1.2});
+        drawEdgedLines(painter, arm, {selected->colour, edgeColour(), 1.2});
         for (const auto& [handle, at] : handles) {
             const bool hot = handle == (handle_ ? handle_ : hovered_);
             const double size = hot ? 5 : handle == BoxHandle::centre ? 2.5 : 3.5;
-            painter.setPen(QPen(kToolEdge, 1.2));
+            painter.setPen(QPen(edgeColour(), 1.2));
             painter.setBrush(hot ? QColor(255, 255, 255) : selected->colour);
             if (handle == BoxHandle::turn || handle == BoxHandle::centre)
                 painter.drawEllipse(at, size + 0.5, size + 0.5);
@@ -328,7 +356,7 @@ void LabelTool::paint(QPainter& painter, const CanvasPlace& place) const {
         QVector<QLineF> lines;
         appendBox(lines, *draft_, place.transform, place.view);
         appendHeading(lines, *draft_, place.transform, place.view);
-        drawEdgedLines(painter, lines, {scene_.drawn_colour, kToolEdge, 2});
+        drawEdgedLines(painter, lines, {scene_.drawn_colour, edgeColour(), 2});
     }
     if (region_) {
         QPolygonF corners;

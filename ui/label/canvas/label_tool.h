@@ -58,7 +58,8 @@ class LabelTool : public QObject, public CanvasTool {
     /// draws an upright one. With an object its box is drawn anew.
     void startDrawing(std::optional<ObjectId> object = std::nullopt);
     bool drawing() const { return drawing_; }
-    /// The next clicks are the corners of an ignore region; a double click or the right button ends it.
+    /// The next clicks are the corners of an ignore region; a double click, the right button
+    /// or Enter ends it.
     void startRegion();
     bool drawingRegion() const { return region_.has_value(); }
     /// Where the mouse is, image coordinates; nothing while it is elsewhere.
@@ -78,6 +79,7 @@ class LabelTool : public QObject, public CanvasTool {
     QString hint(const CanvasPlace& place) const override;
     bool takesPlaces() const override { return drawing_ || region_; }
     bool takeBack() override;
+    bool finishByKey() override;
 
  signals:
     /// Something looks different.
@@ -112,6 +114,7 @@ class LabelTool : public QObject, public CanvasTool {
     std::optional<QPointF> cursor_view_;
     std::optional<QPointF> cursor_image_;
     std::optional<std::vector<cv::Point2d>> region_;  ///< corners so far
+    bool region_refused_ = false;                     ///< these were to be a region, and are none
 };
 
 }  // namespace eyrie::ui

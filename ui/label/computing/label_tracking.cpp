@@ -36,19 +36,24 @@ void LabelTracking::start(int direction) {
     if (const Keyframe* next = direction > 0 ? nextKeyframe(*object, from) : previousKeyframe(*object, from))
         last = next->frame - direction;
     if (last == from || (last - from > 0) != (direction > 0)) {
-        answers_.show_end(from, tr("there is nothing between this keyframe and the next one"));
+        answers_.show_end(from, tr("Nothing to track: there is no frame between this keyframe and the next one."));
         return;
     }
     working_ = true;
-    const auto ended_with = [this, id = object->id, from, box = *box](const FollowResult& result,
-                                                                      const QString& failure) {
+    // Other labels may be open by the time it ends; they have objects of these numbers, too.
+    const auto of_these = [this, project = labels_.projectPath(), video = labels_.sequence().path] {
+        return labels_.projectPath() == project && labels_.sequence().path == video;
+    };
+    const auto ended_with = [this, of_these, id = object->id, from, box = *box](const FollowResult& result,
+                                                                                const QString& failure) {
         working_ = false;
         answers_.working_changed();
+        if (!of_these()) return;
         if (!failure.isEmpty()) emit labels_.problem(failure);
         take(id, from, box, result);
     };
     const TrackingAdvance advance{QString::fromStdString(nameOf(*object)), from, 0, std::abs(last - from), -1};
-    const auto work = [this, ended_with, advance, media = *session_.media(), box = *box, from, last,
+    const auto work = [this, of_these, ended_with, advance, media = *session_.media(), box = *box, from, last,
                        camera = labels_.sharedCamera()](const BackgroundTask& task) {
         const auto source = media.open({}, task.stop());
         const GrayFrames frames = grayReader(*source);
@@ -59,7 +64,9 @@ void LabelTracking::start(int direction) {
             reached.frame = followed.frame;
             reached.done = std::abs(followed.frame - from);
             reached.seconds_left = pace.secondsLeft(reached.done, reached.most - reached.done);
-            task.tell([this, reached] { answers_.show_advance(reached); });
+            task.tell([this, of_these, reached] {
+                if (of_these()) answers_.show_advance(reached);
+            });
         };
         const FollowResult result = followBox(box, from, last, frames, *camera, {}, progress, task.stop());
         task.tell([ended_with, result] { ended_with(result, {}); });
@@ -72,7 +79,7 @@ void LabelTracking::start(int direction) {
 void LabelTracking::take(ObjectId id, FrameIndex start, const OrientedBox& box, const FollowResult& result) {
     const LabelledObject* object = labels_.object(id);
     if (object == nullptr) {
-        answers_.show_end(start, tr("the object was deleted meanwhile"));
+        answers_.show_end(start, tr("Tracking ended: the object was deleted meanwhile."));
         return;
     }
     FrameIndex end = start;
@@ -93,10 +100,11 @@ void LabelTracking::take(ObjectId id, FrameIndex start, const OrientedBox& box, 
             }
         changed.last_frame = std::max(changed.last_frame, end);
         changed.origin = originAfterChange(changed.origin);
-        labels_.apply(editOf(tr("Track %1").arg(QString::fromStdString(nameOf(changed))).toStdString(),
-                             labels_.annotations(), std::vector{std::move(changed)}));
+        const QString name = tr("Track %1").arg(QString::fromStdString(nameOf(changed)));
+        labels_.apply(editOf(name.toStdString(), labels_.annotations(), std::vector{std::move(changed)}));
     }
-    answers_.show_end(end, QString::fromStdString(result.reason));
+    const QString reason = QString::fromStdString(result.reason);
+    answers_.show_end(end, reason.isEmpty() ? QString() : tr("Tracking %1.").arg(reason));
 }
 
 }  // namespace eyrie::ui

@@ -23,8 +23,8 @@ struct LabelTrackingAnswers {
     std::function<void()> working_changed;
     /// It began, or more boxes are sure.
     std::function<void(const TrackingAdvance& advance)> show_advance;
-    /// It ended there, for this reason; empty: it came to its end.
-    std::function<void(FrameIndex frame, const QString& reason)> show_end;
+    /// It ended there; a sentence that says why, or nothing where that was told as a problem.
+    std::function<void(FrameIndex frame, const QString& told)> show_end;
 };
 
 /// Follows the selected box through the pictures, forward or backward, until it gets unsure; then takes what was sure

@@ -124,7 +124,8 @@ bool LabelEditor::setBox(ObjectId id, FrameIndex frame, const OrientedBox& box, 
     LabelledObject changed = carriesOn(box) ? withBoxCarriedOn(*known, frame, box, heading_set, labels_.camera())
                                             : withBox(*known, frame, box, heading_set);
     changed.origin = originAfterChange(changed.origin);
-    return applyObject(what.arg(QString::fromStdString(nameOf(changed))), std::move(changed));
+    const QString name = what.arg(QString::fromStdString(nameOf(changed)));
+    return applyObject(name, std::move(changed));
 }
 
 void LabelEditor::nudge(double right_px, double down_px) {
@@ -188,7 +189,8 @@ void LabelEditor::copyOn(int frames) {
 void LabelEditor::deleteKeyframe() {
     if (!ready() || keyframeAt(*object(), frame()) == nullptr) return;
     if (object()->keyframes.size() == 1) {
-        deleteObjects();
+        // The others that are selected have keyframes of their own.
+        labels_.apply(deletionOf(named(tr("Delete %1")).toStdString(), labels_.annotations(), {object()->id}));
         return;
     }
     LabelledObject changed = withoutKeyframe(*object(), frame());
@@ -285,11 +287,13 @@ void LabelEditor::setColour(std::optional<std::uint32_t> colour) {
     labels_.apply(editOf(named(tr("Colour of %1")).toStdString(), labels_.annotations(), changed));
 }
 
-void LabelEditor::setNotes(const QString& notes) {
-    if (!ready() || object()->notes == notes.toStdString()) return;
-    LabelledObject changed = *object();
+void LabelEditor::setNotes(ObjectId id, const QString& notes) {
+    const LabelledObject* known = labels_.object(id);
+    if (known == nullptr || known->notes == notes.toStdString()) return;
+    LabelledObject changed = *known;
     changed.notes = notes.toStdString();
-    applyObject(named(tr("Notes of %1")), std::move(changed));
+    const QString name = tr("Notes of %1").arg(QString::fromStdString(nameOf(changed)));
+    applyObject(name, std::move(changed));
 }
 
 void LabelEditor::mark(ReviewState state) {

@@ -47,6 +47,7 @@ class LabelEditor : public QObject {
     void setKeyframe();
     /// The box becomes a keyframe of the next (or former) frame, carried on the ground, and that frame is shown.
     void copyOn(int frames = 1);
+    /// The last keyframe goes with its object; others that are selected stay.
     void deleteKeyframe();
     void deleteObjects();
     /// The object lives up to and including this frame.
@@ -57,7 +58,8 @@ class LabelEditor : public QObject {
     void setClass(const std::string& name);
     /// A colour of their own for the selected objects (0xRRGGBB); nothing: that of their class.
     void setColour(std::optional<std::uint32_t> colour);
-    void setNotes(const QString& notes);
+    /// Of any object: who wrote may have chosen another one since.
+    void setNotes(ObjectId id, const QString& notes);
     void mark(ReviewState state);
     /// Flags of the selected objects over a range of frames.
     void setFlags(FrameIndex first, FrameIndex last, const FlagChange& flags);

@@ -82,7 +82,11 @@ LabelImportDialog::LabelImportDialog(LabelSession& labels, QWidget* parent)
     onEdited(this, show_columns, format_);
     onEdited(this, &LabelImportDialog::read, format_, shift_, scale_, link_);
     onFinished(this, &LabelImportDialog::read, columns_);
-    bindCommands(this, {{buttons_->button(QDialogButtonBox::Ok), [this] { accept(); }},
+    QPushButton* folder = buttons_->addButton(tr("A folder instead…"), QDialogButtonBox::ActionRole);
+    folder->setToolTip(
+        tr("For formats with a text file per image, such as YOLO-OBB and DOTA, and for trees of MOTChallenge"));
+    bindCommands(this, {{folder, [this] { chooseFolder(); }},
+                        {buttons_->button(QDialogButtonBox::Ok), [this] { accept(); }},
                         {buttons_->button(QDialogButtonBox::Cancel), [this] { reject(); }}});
     show_columns();
     setBusy(true);
@@ -91,12 +95,19 @@ LabelImportDialog::LabelImportDialog(LabelSession& labels, QWidget* parent)
 LabelImportDialog::~LabelImportDialog() = default;
 
 bool LabelImportDialog::choose() {
+    const QString beside = QString::fromStdString(labels_.projectPath().parent_path().string());
     const QString path =
-        QFileDialog::getOpenFileName(parentWidget(), tr("Import labels"), {},
+        QFileDialog::getOpenFileName(parentWidget(), tr("Import labels"), beside,
                                      tr("Labels (%1);;All files (*)").arg(QString::fromStdString(labelFilePatterns())));
     if (path.isEmpty()) return false;
     setFile(path.toStdString());
     return true;
+}
+
+void LabelImportDialog::chooseFolder() {
+    const QString inside = QString::fromStdString(path_.parent_path().string());
+    const QString path = QFileDialog::getExistingDirectory(this, tr("Import a folder of labels"), inside);
+    if (!path.isEmpty()) setFile(path.toStdString());
 }
 
 void LabelImportDialog::setFile(const std::filesystem::path& path) {
@@ -247,6 +258,7 @@ void LabelImportDialog::accept() {
     };
     query_.post(work, [this](const QString& failure) {
         setEnabled(true);
+        setBusy(false);  // what stood in the way may be gone the next time
         text_->setPlainText(failure);
     });
 }

@@ -47,6 +47,7 @@ class LabelImportDialog : public QDialog {
     void fileRead();
 
  private:
+    void chooseFolder();
     void read();
     void showReport(const LabelReport& report, int doubles);
     ImportOptions options() const;

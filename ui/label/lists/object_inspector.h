@@ -54,7 +54,8 @@ struct ObjectEdits {
     std::function<void()> toggle_occluded;
     std::function<void()> toggle_outside;
     std::function<void()> toggle_ignore;
-    std::function<void(const QString& notes)> set_notes;
+    /// Of the object that was shown while they were written, which may be another one by now.
+    std::function<void(int object, const QString& notes)> set_notes;
     std::function<void()> check;
     std::function<void()> question;
     std::function<void(int other)> join;
@@ -76,12 +77,14 @@ class ObjectInspector : public QWidget {
     void showObject(const std::optional<ObjectDetails>& details);
     QString title() const;
     QString boxText() const;
+    QLineEdit& notes() const { return *notes_; }
 
  private:
     void chooseColour();
     void showColour(const ObjectDetails& details);
 
     ObjectEdits edits_;
+    int shown_ = 0;  ///< the object whose notes stand there; 0: none
     QStackedLayout* pages_;
     EmptyState* empty_;
     QLabel* title_;

@@ -89,8 +89,20 @@ void EventCard::explainNothing(const QString& text) {
     empty_->setTexts(text);
 }
 
+/// Keys, and clicks that leave the focus where it is, go on to another event while something is being written.
+void EventCard::keepWritten() {
+    const int event = subject_->event;
+    const QString note = note_->text(), tags = tags_->text();
+    const bool note_written = note_->isModified() && note != subject_->note;
+    const bool tags_written = tags_->isModified() && tags != subject_->tags;
+    // Both have been read: the card is shown anew when one is stored.
+    if (note_written) commands_.write_note(event, note);
+    if (tags_written) commands_.write_tags(event, tags);
+}
+
 void EventCard::show(const std::optional<CardSubject>& subject) {
     if (subject == subject_) return;
+    if (subject_ && subject_->event != 0 && (!subject || subject->event != subject_->event)) keepWritten();
     const bool same = subject && subject_ && subject->track == subject_->track && subject->frame == subject_->frame;
     const bool same_event = subject && subject_ && subject->event == subject_->event;
     // What stands there may be half written: it stays while nothing else is stored.

@@ -46,7 +46,7 @@ class EventCard : public QWidget {
     ~EventCard() override;
 
     void setCommands(CardCommands commands) { commands_ = std::move(commands); }
-    /// Nothing: no card.
+    /// Nothing: no card. What is being written on the card of another event is kept first.
     void show(const std::optional<CardSubject>& subject);
     const std::optional<CardSubject>& subject() const { return subject_; }
     /// What is said while there is no card.
@@ -71,6 +71,7 @@ class EventCard : public QWidget {
     void hideEvent(QHideEvent* event) override;
 
  private:
+    void keepWritten();
     void nextChip();
 
     CardCommands commands_;

@@ -8,7 +8,6 @@
 
 #include "canvas/video_view.h"
 #include "core/error.h"
-#include "correction/corrected_run.h"
 #include "correction/made_corrections.h"
 #include "review/correct/vehicle_box_tool.h"
 #include "review/events/event_review.h"
@@ -33,47 +32,6 @@ bool isRejectable(const TrackSummary& track) {
 }
 
 }  // namespace
-
-/// What would come of corrections.
-struct TrackCorrecting::Tried {
-    std::vector<TrackCorrection> made;                  ///< those of which something comes
-    std::vector<std::size_t> made_at;                   ///< which of those asked for they are
-    TrackCorrection refused;                            ///< else the last of which nothing does,
-    CorrectionState state = CorrectionState::no_track;  ///< and why
-    TrackId last_id = 0;                                ///< the highest of the run
-    TrackId covering = 0;                               ///< a track that has it so already
-    DrawnVehicle vehicle;                               ///< what was followed
-
-    /// The track that an addition or a split makes.
-    TrackId newTrack() const { return last_id + made.front().id; }
-};
-
-/// What it is made from.
-struct TrackCorrecting::Trial {
-    const RunStore& store;
-    const RunRecord& run;
-    const CorrectedTracks& corrected;
-    const BackgroundTask& task;
-    Tried& tried;
-
-    std::vector<TrackFrame> statesOf(TrackId track) const {
-        if (corrected.rejected.contains(track))
-            throw Error(ErrorKind::parameter, "track " + std::to_string(track) + " is rejected; take that back first");
-        std::vector<TrackFrame> states = trackStates(store, run.id, track, corrected);
-        if (states.empty())
-            throw Error(ErrorKind::parameter, "track " + std::to_string(track) +
-                                                  " is not part of the run's result (its score kept it out); only "
-                                                  "tracks of the result are joined, split and rejected");
-        return states;
-    }
-
-    /// With the track that is kept of those on the same vehicle; those of `but` are not kept either.
-    TrackCorrection rejectionOf(TrackId track, const std::set<TrackId>& but) const {
-        const std::vector<TrackFrame> states = statesOf(track);
-        const TrackCorrection alone = eyrie::rejectionOf(states);
-        return eyrie::rejectionOf(states, trackBeside(store, run.id, alone, but, corrected));
-    }
-};
 
 TrackCorrecting::TrackCorrecting(const CorrectingParts& parts, QObject* parent)
     : QObject(parent), parts_(parts), tool_(new VehicleBoxTool(parts.canvas, this)) {
@@ -170,40 +128,18 @@ bool TrackCorrecting::areSeveralChosen() const {
 
 // ---- trying ---------------------------------------------------------------------------------------------------------
 
-void TrackCorrecting::attempt(const QString& step, const Make& make, const Kept& kept, std::size_t most) {
+void TrackCorrecting::attempt(const QString& step, const MakeCorrections& make, const Kept& kept, std::size_t most) {
     const auto& data = parts_.session.runData();
     if (working_ || !data) return;
     working_ = true;
     enableActions();
     std::vector<int> numbers(most);
     for (int& number : numbers) number = parts_.review.newCorrectionId();
-    const auto work = [this, step, make, kept, numbers, project = parts_.session.project(), run = data->record,
-                       corrections = parts_.review.corrections(),
-                       memo = parts_.session.correctedTracks()](const BackgroundTask& task) mutable {
-        ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
-        const RunStore store(file);
-        auto tried = std::make_shared<Tried>();
-        const auto before = memo->of(store, project, run, corrections);
-        std::vector<TrackCorrection> wanted = make({store, run, *before, task, *tried});
-        for (std::size_t i = 0; i < wanted.size(); ++i) {
-            wanted[i].id = numbers.at(i);
-            corrections[wanted[i].id] = wanted[i];
-        }
-        const auto made = memo->of(store, project, run, corrections);
-        for (TrackCorrection& correction : wanted) {
-            const CorrectionState state = made->states.at(correction.id);
-            if (state == CorrectionState::applied) {
-                tried->made_at.push_back(static_cast<std::size_t>(&correction - wanted.data()));
-                tried->made.push_back(std::move(correction));
-                continue;
-            }
-            tried->state = state;
-            const auto covering = made->covering.find(correction.id);
-            if (covering != made->covering.end()) tried->covering = covering->second;
-            tried->refused = std::move(correction);
-        }
-        tried->last_id = store.lastTrackId(run.id);
-        task.tell([this, step, tried, kept, project, run_id = run.id] {
+    const TriedOn tried_on{parts_.session.project(), data->record, parts_.review.corrections(),
+                           parts_.session.correctedTracks()};
+    const auto work = [this, step, make, kept, numbers, tried_on](const BackgroundTask& task) {
+        const auto tried = std::make_shared<const TriedCorrections>(tryCorrections(tried_on, make, numbers, task));
+        task.tell([this, step, tried, kept, project = tried_on.project, run_id = tried_on.run.id] {
             working_ = false;
             enableActions();
             // While it was tried, another run or project may have been chosen.
@@ -218,13 +154,13 @@ void TrackCorrecting::attempt(const QString& step, const Make& make, const Kept&
     });
 }
 
-void TrackCorrecting::finish(const QString& step, const Tried& tried, const Kept& kept) {
+void TrackCorrecting::finish(const QString& step, const TriedCorrections& tried, const Kept& kept) {
     parts_.messages.dismissTopic(kCorrectingTopic);
     if (tried.made.empty()) return tellRefused(tried);
     if (parts_.review.correct(tried.made, step)) kept(tried);
 }
 
-void TrackCorrecting::tellRefused(const Tried& tried) {
+void TrackCorrecting::tellRefused(const TriedCorrections& tried) {
     switch (tried.state) {
         case CorrectionState::covered:
             warn(tried.refused.kind == CorrectionKind::add
@@ -273,10 +209,10 @@ void TrackCorrecting::joinWithSelected() {
     endJoin();
     attempt(
         tr("Join tracks %1 and %2").arg(one).arg(*other),
-        [one, other = *other](const Trial& trial) {
+        [one, other = *other](const CorrectionTrial& trial) {
             return std::vector{joinOf(trial.statesOf(one), trial.statesOf(other))};
         },
-        [this, one, other = *other](const Tried&) {
+        [this, one, other = *other](const TriedCorrections&) {
             // It has the number of the one that begins first.
             const auto first = parts_.session.trackSummary(one), second = parts_.session.trackSummary(other);
             const bool keeps = first != nullptr && second != nullptr && first->first_frame <= second->first_frame;
@@ -295,8 +231,10 @@ void TrackCorrecting::split() {
     const FrameIndex frame = parts_.session.shownFrame();
     attempt(
         tr("Split track %1").arg(*selected),
-        [track = *selected, frame](const Trial& trial) { return std::vector{splitOf(trial.statesOf(track), frame)}; },
-        [this, track = *selected, frame](const Tried& tried) {
+        [track = *selected, frame](const CorrectionTrial& trial) {
+            return std::vector{splitOf(trial.statesOf(track), frame)};
+        },
+        [this, track = *selected, frame](const TriedCorrections& tried) {
             parts_.session.selectTrack(tried.newTrack());
             tell(tr("Track %1 ends before frame %2; from there on it is track %3. Z takes it back.")
                      .arg(track)
@@ -315,13 +253,13 @@ void TrackCorrecting::reject() {
         if (wanted.contains(track.id) && isRejectable(track)) tracks.push_back(track.id);
     if (tracks.empty())
         return warn(tr("None of the selected tracks is part of the result, so there is nothing to reject."));
-    const auto make = [tracks](const Trial& trial) {
+    const auto make = [tracks](const CorrectionTrial& trial) {
         std::vector<TrackCorrection> rejections;
         const std::set<TrackId> none_kept(tracks.begin(), tracks.end());
         for (const TrackId track : tracks) rejections.push_back(trial.rejectionOf(track, none_kept));
         return rejections;
     };
-    const auto kept = [this, tracks](const Tried& tried) {
+    const auto kept = [this, tracks](const TriedCorrections& tried) {
         const std::size_t made = tried.made.size();
         QString text =
             made == 1
@@ -397,7 +335,7 @@ void TrackCorrecting::follow(const OrientedBox& box) {
                 return warn(tr("Track %1 already follows this vehicle.").arg(state.id));
             }
     const FrameIndex frame = shown.index;
-    const auto make = [this, box, frame, tracks, media = *parts_.session.media()](const Trial& trial) {
+    const auto make = [this, box, frame, tracks, media = *parts_.session.media()](const CorrectionTrial& trial) {
         const std::stop_token& stop = trial.task.stop();
         const auto source = media.open({}, stop);
         const GrayFrames gray = grayReader(*source);
@@ -418,7 +356,7 @@ void TrackCorrecting::follow(const OrientedBox& box) {
                     "); draw a tighter box, draw it in a frame that shows the vehicle better, or set a bookmark");
         return std::vector{additionOf(vehicle.sightings, frame)};
     };
-    attempt(tr("Add a track"), make, [this](const Tried& tried) {
+    attempt(tr("Add a track"), make, [this](const TriedCorrections& tried) {
         const std::vector<Sighting>& seen = tried.vehicle.sightings;
         parts_.session.selectTrack(tried.newTrack());
         tell(tr("Added track %1, frames %2 to %3. Backwards: %4. Forwards: %5. Z takes it back.")

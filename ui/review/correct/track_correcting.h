@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "correction/drawn_vehicle.h"
+#include "review/correct/correction_trial.h"
 #include "session/background/background_query.h"
 
 namespace eyrie::ui {
@@ -52,12 +53,7 @@ class TrackCorrecting : public QObject {
     static QString followingText(const DrawnVehicleAdvance& advance, double seconds_left);
 
  private:
-    struct Tried;
-    struct Trial;
-    /// What is to be tried, made in the background from the tracks as they are shown: at most as many as were asked
-    /// for.
-    using Make = std::function<std::vector<TrackCorrection>(const Trial&)>;
-    using Kept = std::function<void(const Tried&)>;
+    using Kept = std::function<void(const TriedCorrections&)>;
 
     void startDrawing(bool wanted);
     void follow(const OrientedBox& box);
@@ -71,9 +67,10 @@ class TrackCorrecting : public QObject {
     std::vector<TrackId> chosen() const;
     bool isListSeen() const;
     bool areSeveralChosen() const;
-    void attempt(const QString& step, const Make& make, const Kept& kept, std::size_t most = 1);
-    void finish(const QString& step, const Tried& tried, const Kept& kept);
-    void tellRefused(const Tried& tried);
+    /// Tries what is made, at most as many as `most`.
+    void attempt(const QString& step, const MakeCorrections& make, const Kept& kept, std::size_t most = 1);
+    void finish(const QString& step, const TriedCorrections& tried, const Kept& kept);
+    void tellRefused(const TriedCorrections& tried);
     void tell(const QString& text);
     void warn(const QString& text);
     void showFollowing(const QString& text);

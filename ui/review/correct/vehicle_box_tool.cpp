@@ -7,14 +7,13 @@
 #include <utility>
 
 #include "canvas/drawing/edged_painter.h"
+#include "canvas/drawing/mark_colours.h"
 #include "canvas/video_view.h"
 
 namespace eyrie::ui {
 
 namespace {
 
-const QColor kBoxDraft(255, 200, 40);
-const QColor kBoxEdge(12, 12, 14);
 constexpr double kSmallest_px = 3;  ///< of the frame: less can be no vehicle, and not be followed
 
 }  // namespace
@@ -102,7 +101,7 @@ void VehicleBoxTool::paint(QPainter& painter, const CanvasPlace& place) const {
         for (int i = 0; i < 4; ++i)
             lines.append(
                 {place.transform.viewFromImage(corners[i]), place.transform.viewFromImage(corners[(i + 1) % 4])});
-        drawEdgedLines(painter, lines, {kBoxDraft, kBoxEdge, 1.8});
+        drawEdgedLines(painter, lines, {toolColour(), edgeColour(), 1.8});
     }
 }
 

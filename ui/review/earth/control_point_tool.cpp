@@ -7,15 +7,14 @@
 #include <utility>
 
 #include "canvas/drawing/edged_painter.h"
+#include "canvas/drawing/mark_colours.h"
 #include "canvas/video_view.h"
 
 namespace eyrie::ui {
 
 namespace {
 
-const QColor kControl(255, 200, 40);
 const QColor kSuspect(255, 90, 80);
-const QColor kControlEdge(12, 12, 14);
 constexpr double kArm = 9;          ///< of the crosses, logical px
 constexpr double kReach = 9;        ///< of the mouse around a cross, logical px
 constexpr double kShake = 3;        ///< by which the mouse may move in a click, logical px
@@ -154,17 +153,17 @@ void ControlPointTool::paint(QPainter& painter, const CanvasPlace& place) const 
         const QPointF at = place.transform.viewFromImage(px);
         const QVector<QLineF> lines{{at - QPointF(kArm, 0), at + QPointF(kArm, 0)},
                                     {at - QPointF(0, kArm), at + QPointF(0, kArm)}};
-        drawEdgedLines(painter, lines, {colour, kControlEdge, 1.8, style});
+        drawEdgedLines(painter, lines, {colour, edgeColour(), 1.8, style});
         return at;
     };
     for (const ControlPointMark& mark : marks_) {
-        const QColor colour = mark.suspect ? kSuspect : kControl;
+        const QColor colour = mark.suspect ? kSuspect : toolColour();
         const QPointF at = cross(mark.px, colour, mark.own ? Qt::SolidLine : Qt::DotLine);
         const QString number = QString::number(mark.number);
         const QRectF plate(at + QPointF(5, -20),
                            QSizeF(painter.fontMetrics().size(Qt::TextSingleLine, number)) + QSizeF(8, 0));
         painter.setPen(Qt::NoPen);
-        painter.setBrush(kControlEdge);
+        painter.setBrush(edgeColour());
         painter.drawRoundedRect(plate, 3, 3);
         painter.setPen(colour);
         painter.drawText(plate, Qt::AlignCenter, number);

@@ -127,8 +127,10 @@ QString streamSummary(const VideoMetadata& stream, std::int64_t last_us) {
         lines << tell("Clock: %1 to %2")
                      .arg(fromEngine(utcTextToMilliseconds(*first)), fromEngine(utcTextToMilliseconds(*last)));
     if (sets.steps_back > 0 || sets.leaps > 0)
-        lines
-            << tell("The clock goes back %1×, leaps ahead by more than 10 s %2×").arg(sets.steps_back).arg(sets.leaps);
+        lines << tell("The clock goes back %1×, leaps ahead by more than 10 s %2×%3")
+                     .arg(sets.steps_back)
+                     .arg(sets.leaps)
+                     .arg(fromEngine(firstPlaceText(sets.first_jump)));
     return lines.join(QLatin1Char('\n'));
 }
 

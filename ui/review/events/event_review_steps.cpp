@@ -140,7 +140,8 @@ void EventReview::redo() {
 }
 
 void EventReview::goBack(const std::function<std::optional<ReviewEdit>()>& step) {
-    if (!mayJudge()) return;
+    // Bookmarks and zones are made before events are found, so they can be taken back by then, too.
+    if (watched_ || so_far_ ? !mayJudge() : !mayWrite()) return;
     const std::vector<Zone> zones_before = zonesOf(zones());
     std::optional<ReviewEdit> edit;
     try {
@@ -204,7 +205,12 @@ bool EventReview::setBookmark(FrameIndex frame, const QString& note) {
         if (before && after.note == note.toStdString()) return ReviewEdit{};
         if (!before) after.id = store_->newBookmarkId();
         after.frame = frame;
-        after.seconds = tracks_ ? tracks_->secondsOf(frame) : after.seconds;
+        // As the run tells it; until its tracks are read, as the video does.
+        const auto& times = session_.timesUs();
+        if (tracks_)
+            after.seconds = tracks_->secondsOf(frame);
+        else if (!before && frame >= 0 && static_cast<std::size_t>(frame) < times.size())
+            after.seconds = static_cast<double>(times[static_cast<std::size_t>(frame)]) / 1e6;
         after.note = note.toStdString();
         const Judge judge = whoJudges();
         after.person = judge.person;

@@ -230,14 +230,15 @@ void EventsDock::explainNothing() {
         case EventReview::State::failed:
             text = tr("Events could not be read; the message above the video says why.");
             break;
-        case EventReview::State::found:
-            text = !review_->found()->run->tracks.empty()
-                       ? tr("Nothing that happened counts as an event with these limits.")
+        case EventReview::State::found: {
+            const QString no_event = tr("Nothing that happened counts as an event with these limits.");
+            text = !review_->found()->run->tracks.empty() ? no_event
                    : !review_->found()->run->corrections.rejected.empty()
                        ? tr("All tracks are rejected; the list of tracks still has them.")
                    : parts_.session.runData() ? whyNoTracks(parts_.session.runData()->facts)
-                                              : tr("Nothing that happened counts as an event with these limits.");
+                                              : no_event;
             break;
+        }
     }
     panel_->emptyState()->setTexts(text);
 }

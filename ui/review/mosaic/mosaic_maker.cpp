@@ -12,7 +12,6 @@ namespace eyrie::ui {
 namespace {
 
 constexpr auto kShownEvery = std::chrono::milliseconds(700);
-constexpr double kLeastWay = 2;  ///< between points of a way, units of the sheet
 
 /// The mosaic of a run on its way.
 class MosaicWork {
@@ -21,7 +20,7 @@ class MosaicWork {
         : ground_(ground),
           sheets_(std::make_shared<const GroundSheets>(ground->run->footage, ground->run->footage.first_frame)),
           painter_(sheets_) {
-        auto paths = pathsOn(*sheets_, ground->run->tracks, kLeastWay);
+        auto paths = pathsOn(*sheets_, ground->run->tracks);
         for (std::size_t i = 0; i < painter_.sheets().size(); ++i) {
             const MosaicSheet& sheet = painter_.sheets()[i];
             SheetPicture shown;

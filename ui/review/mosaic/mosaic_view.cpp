@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "canvas/drawing/edged_painter.h"
+#include "canvas/drawing/mark_colours.h"
 
 namespace eyrie::ui {
 
@@ -193,7 +194,7 @@ void MosaicView::paintEvent(QPaintEvent*) {
         drawEdgedLines(
             painter,
             {{at - QPointF(kCross, 0), at + QPointF(kCross, 0)}, {at - QPointF(0, kCross), at + QPointF(0, kCross)}},
-            {QColor(255, 200, 40), colours_.edge, 1.8});
+            {toolColour(), colours_.edge, 1.8});
     }
     if (hasFocus()) {
         // Return asks about the middle.

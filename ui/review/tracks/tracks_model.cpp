@@ -132,12 +132,13 @@ QVariant TracksModel::sortValueOf(const TrackSummary& track, int column) const {
             return track.last_frame;
         case life_column:
             return track.last_frame - track.first_frame;
+        // As they are shown: in an oblique view the same number of px is more in the distance.
         case speed_column:
-            return track.mean_speed_px;
+            return shownSpeed(track.mean_speed_px, scale_.at(track.place));
         case length_column:
-            return track.mean_length_px;
+            return shownLength(track.mean_length_px, scale_.at(track.place));
         case width_column:
-            return track.mean_width_px;
+            return shownLength(track.mean_width_px, scale_.at(track.place));
         case score_column:
             return track.score;
         case like_column:

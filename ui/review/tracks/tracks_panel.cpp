@@ -32,8 +32,7 @@ TracksPanel::TracksPanel(TracksModel* model, QWidget* parent)
       chips_(new FilterChips(this)),
       now_due_(kFollowNow_ms, [this] { filterTracks(); }) {
     table()->setAccessibleName(tr("Tracks"));
-    emptyState()->setTexts(
-        tr("The tracks of a run are listed here: one row for each moving vehicle, with its life, speed and size."));
+    emptyState()->setTexts(aboutText());
     tentative_->setText(tr("Tentative"));
     tentative_->setCheckable(true);
     tentative_->setToolTip(tr("Also list tracks that were never confirmed and are not part of the result"));
@@ -80,6 +79,10 @@ TracksPanel::TracksPanel(TracksModel* model, QWidget* parent)
     if (table()->horizontalHeader()->sortIndicatorSection() == TracksModel::like_column)
         table()->sortByColumn(TracksModel::id_column, Qt::AscendingOrder);
     setTentativeShown(false);
+}
+
+QString TracksPanel::aboutText() {
+    return tr("The tracks of a run are listed here: one row for each moving vehicle, with its life, speed and size.");
 }
 
 int TracksPanel::placeOf(double score) const {

@@ -40,6 +40,8 @@ class TracksPanel : public TablePanel {
  public:
     /// `model` must outlive the panel.
     explicit TracksPanel(TracksModel* model, QWidget* parent = nullptr);
+    /// What the list is for, where it is empty.
+    static QString aboutText();
     void setCommands(TrackListCommands commands) { commands_ = std::move(commands); }
     /// What the menu of a row offers beside going there: commands for the selected tracks, which outlive the panel.
     void setMenuActions(QList<QAction*> actions) { menu_actions_ = std::move(actions); }

@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include "canvas/drawing/edged_painter.h"
+#include "canvas/drawing/mark_colours.h"
 #include "canvas/video_view.h"
 #include "review/watch/watched_ground.h"
 #include "session/project_session.h"
@@ -16,9 +17,6 @@
 namespace eyrie::ui {
 
 namespace {
-
-const QColor kMeasure(255, 200, 40);
-const QColor kMeasureEdge(12, 12, 14);
 
 QString metresText(double metres) {
     return QStringLiteral("%1 m").arg(numberText(metres, metres < 100 ? 1 : 0));
@@ -180,11 +178,11 @@ void MeasureTool::paint(QPainter& painter, const CanvasPlace& place) const {
     if (!measuring_) return;
     const auto from = inView(from_, place);
     const auto to = from_ ? inView(farEnd(), place) : std::nullopt;
-    if (from && to) drawEdgedLines(painter, {QLineF(*from, *to)}, {kMeasure, kMeasureEdge, 1.8});
+    if (from && to) drawEdgedLines(painter, {QLineF(*from, *to)}, {toolColour(), edgeColour(), 1.8});
     QVector<QPointF> ends;
     if (from) ends << *from;
     if (to && to_) ends << *to;
-    drawEdgedDots(painter, ends, 7, kMeasure, kMeasureEdge);
+    drawEdgedDots(painter, ends, 7, toolColour(), edgeColour());
     if (!from || !to) return;
     const QString words = text();
     QRectF plate = QRectF(painter.fontMetrics().boundingRect(words)).adjusted(-8, -4, 8, 4);
@@ -193,7 +191,7 @@ void MeasureTool::paint(QPainter& painter, const CanvasPlace& place) const {
     plate.moveLeft(std::max(room.left(), std::min(plate.left(), room.right() - plate.width())));
     plate.moveTop(std::max(room.top(), std::min(plate.top(), room.bottom() - plate.height())));
     painter.setPen(Qt::NoPen);
-    painter.setBrush(QColor(12, 12, 14, 210));
+    painter.setBrush(edgeColour(210));
     painter.drawRoundedRect(plate, 4, 4);
     painter.setPen(Qt::white);
     painter.setBrush(Qt::NoBrush);

@@ -8,6 +8,7 @@ namespace eyrie::ui {
 class ProjectSession;
 class VideoView;
 
+/// What a picture of the canvas shows.
 enum class SnapshotKind {
     as_seen,  ///< the view, with all that is drawn over it
     alone     ///< the whole frame, pixel by pixel, as bright as it is shown

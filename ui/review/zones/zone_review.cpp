@@ -1,6 +1,5 @@
 #include "review/zones/zone_review.h"
 
-#include <exception>
 #include <map>
 #include <utility>
 
@@ -62,10 +61,14 @@ ZoneReview::ZoneReview(const ZoneParts& parts, QObject* parent)
         });
     });
     // A file that is still being read was meant for the video and the project before.
-    whenChanged(parts_.session, this,
-                {{{SessionChange::video, SessionChange::project}, [this] { reading_.cancel(); }}});
+    whenChanged(parts_.session, this, {{{SessionChange::video, SessionChange::project}, [this] { files_.cancel(); }}});
     bindCommands();
     showZones();
+}
+
+ZoneReview::~ZoneReview() {
+    files_.cancel();
+    files_.finishPosted();
 }
 
 void ZoneReview::bindCommands() {
@@ -186,7 +189,7 @@ void ZoneReview::readFile(const QString& path) {
         const std::vector<Zone> zones = readZones(path.toStdString());
         task.tell([this, path, zones] { takeFrom(path, zones); });
     };
-    reading_.ask(work, [this](const QString& fault) { tellFault(fault); });
+    files_.ask(work, [this](const QString& fault) { tellFault(fault); });
 }
 
 void ZoneReview::takeFrom(const QString& path, const std::vector<Zone>& zones) {
@@ -206,13 +209,14 @@ void ZoneReview::takeFrom(const QString& path, const std::vector<Zone>& zones) {
 }
 
 void ZoneReview::writeFile(const QString& path) {
-    try {
-        writeZones(path.toStdString(), zonesOf(parts_.review.zones()));
-    } catch (const std::exception& error) {
-        tellFault(QString::fromUtf8(error.what()));
-        return;
-    }
-    parts_.messages.showTopic(kZonesTopic, MessageKind::info, tr("Wrote %1. On the command line: --zone %1").arg(path));
+    const auto work = [this, path, zones = zonesOf(parts_.review.zones())](const BackgroundTask& task) {
+        writeZones(path.toStdString(), zones);
+        task.tell([this, path] {
+            parts_.messages.showTopic(kZonesTopic, MessageKind::info,
+                                      tr("Wrote %1. On the command line: --zone %1").arg(path));
+        });
+    };
+    files_.post(work, [this](const QString& fault) { tellFault(fault); });
 }
 
 void ZoneReview::tellFault(const QString& fault) {

@@ -36,6 +36,8 @@ class ZoneReview : public QObject {
 
  public:
     explicit ZoneReview(const ZoneParts& parts, QObject* parent = nullptr);
+    /// Files that were asked for are written before it goes.
+    ~ZoneReview() override;
 
     /// Without a parent until somebody takes it into a layout.
     ZonesPanel& panel() { return *panel_; }
@@ -48,7 +50,7 @@ class ZoneReview : public QObject {
     void showZones();
     /// Files as the command line reads them; what is wrong with one is told. Read in the background.
     void readFile(const QString& path);
-    /// Written when it returns, so that closing the window loses nothing: a few hundred bytes.
+    /// Written in the background, with the zones as they are now; what came of it is told.
     void writeFile(const QString& path);
 
  signals:
@@ -77,8 +79,8 @@ class ZoneReview : public QObject {
     ZonesPanel* panel_;
     ZoneTool* tool_;
     bool active_ = true;
-    int drawn_in_ = 0;         ///< frame that the points being drawn are meant in
-    BackgroundQuery reading_;  ///< a file; last: stops before the rest goes
+    int drawn_in_ = 0;       ///< frame that the points being drawn are meant in
+    BackgroundQuery files_;  ///< reads are questions, writes are posted; last: stops before the rest goes
 };
 
 }  // namespace eyrie::ui

@@ -7,14 +7,13 @@
 #include <cmath>
 
 #include "canvas/drawing/edged_painter.h"
+#include "canvas/drawing/mark_colours.h"
 #include "canvas/video_view.h"
 
 namespace eyrie::ui {
 
 namespace {
 
-const QColor kZoneDraft(255, 200, 40);
-const QColor kZoneEdge(12, 12, 14);
 constexpr double kSamePoint = 4;     ///< logical px: the second click of a double one is no point
 constexpr double kSamePlace = 0.01;  ///< the same for keys, which do not shake: what is lost in rounding
 
@@ -140,7 +139,7 @@ void ZoneTool::paint(QPainter& painter, const CanvasPlace& place) const {
     const QPolygonF set = corners;
     if (mouse_) corners << *mouse_;
     if (*shape_ == ZoneShape::area && corners.size() > 2) {
-        QColor ground = kZoneDraft;
+        QColor ground = toolColour();
         ground.setAlpha(50);
         painter.setPen(Qt::NoPen);
         painter.setBrush(ground);
@@ -149,12 +148,13 @@ void ZoneTool::paint(QPainter& painter, const CanvasPlace& place) const {
     }
     QVector<QLineF> lines;
     for (int i = 1; i < corners.size(); ++i) lines.append({corners[i - 1], corners[i]});
-    drawEdgedLines(painter, lines, {kZoneDraft, kZoneEdge, 1.8});
+    drawEdgedLines(painter, lines, {toolColour(), edgeColour(), 1.8});
     if (*shape_ == ZoneShape::area && corners.size() > 2)
-        drawEdgedLines(painter, {QLineF(corners.back(), corners.front())}, {kZoneDraft, kZoneEdge, 1.2, Qt::DashLine});
+        drawEdgedLines(painter, {QLineF(corners.back(), corners.front())},
+                       {toolColour(), edgeColour(), 1.2, Qt::DashLine});
     QVector<QPointF> dots;
     for (const QPointF& corner : set) dots << corner;
-    drawEdgedDots(painter, dots, 7, kZoneDraft, kZoneEdge);
+    drawEdgedDots(painter, dots, 7, toolColour(), edgeColour());
 }
 
 QString ZoneTool::hint(const CanvasPlace&) const {

@@ -110,6 +110,11 @@ class BackgroundQuery::Tasks : public std::enable_shared_from_this<Tasks> {
         idle_stop.request_stop();
     }
 
+    void finishPosted() {
+        std::unique_lock lock(mutex_);
+        ended_.wait(lock, [this] { return posted_.empty() && !at_work_; });
+    }
+
     void end() {
         cancel();
         std::deque<Job> dropped;
@@ -211,6 +216,10 @@ void BackgroundQuery::ask(Work work, Failed failed, Former former) {
 
 void BackgroundQuery::whenIdle(Work work) {
     tasks_->add(Tasks::Kind::idle, std::move(work), {}, Former::finish);
+}
+
+void BackgroundQuery::finishPosted() {
+    tasks_->finishPosted();
 }
 
 void BackgroundQuery::cancel() {

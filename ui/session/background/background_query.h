@@ -50,6 +50,9 @@ class BackgroundQuery {
     void ask(Work work, Failed failed = {}, Former former = Former::stop);
     /// Done when nothing else is to do, dropped or stopped as soon as something is. Takes the place of one not begun.
     void whenIdle(Work work);
+    /// Waits until all that was posted is done. For an owner that goes and must not lose what it had written; not for
+    /// tasks, and not with one among them that waits for the query's thread.
+    void finishPosted();
     /// Stops questions and idle work; what they would tell is dropped.
     void cancel();
     /// For what a task has others do: calls on the query's thread, unless the query has gone by then.

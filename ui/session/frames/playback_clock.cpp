@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "io/clock_jumps.h"
+
 namespace eyrie::ui {
 
 namespace {
@@ -13,6 +15,17 @@ constexpr std::int64_t kShortestWait_us = 1'000;
 
 void PlaybackClock::setTimes(std::vector<std::int64_t> times_us) {
     times_us_ = std::move(times_us);
+    if (times_us_.size() < 3) return;
+    std::vector<std::int64_t> steps;
+    for (size_t i = 1; i < times_us_.size(); ++i) steps.push_back(times_us_[i] - times_us_[i - 1]);
+    const std::vector<std::int64_t> as_stamped = steps;
+    std::nth_element(steps.begin(), steps.begin() + std::ssize(steps) / 2, steps.end());
+    const std::int64_t usual_us = steps[steps.size() / 2];
+    const auto seconds = [](std::int64_t length_us) { return static_cast<double>(length_us) / 1e6; };
+    for (size_t i = 1; i < times_us_.size(); ++i) {
+        const std::int64_t step_us = as_stamped[i - 1];
+        times_us_[i] = times_us_[i - 1] + (isClockJump(seconds(step_us), seconds(usual_us)) ? usual_us : step_us);
+    }
 }
 
 void PlaybackClock::start(FrameIndex frame, double speed, std::int64_t now_us) {

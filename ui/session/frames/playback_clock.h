@@ -10,7 +10,7 @@ namespace eyrie::ui {
 /// Which frame is due while playing by the video's own time stamps. Arithmetic only; `now_us` is any steady clock.
 class PlaybackClock {
  public:
-    /// Presentation time per frame, ascending, microseconds.
+    /// Presentation time per frame, ascending, microseconds. Where the clock leaps ahead nobody waits for it.
     void setTimes(std::vector<std::int64_t> times_us);
     int frameCount() const { return static_cast<int>(times_us_.size()); }
 

@@ -6,12 +6,12 @@
 
 #include "canvas/drawing/image_convert.h"
 #include "io/video/frame_cache.h"
+#include "session/frames/picture_budget.h"
 #include "session/frames/stored_frames.h"
 
 namespace eyrie::ui {
 
 namespace {
-constexpr std::size_t kPictureBudget = std::size_t{384} << 20U;
 constexpr int kReadAhead = 10;  ///< frames
 constexpr auto kProgressInterval = std::chrono::milliseconds(60);
 }  // namespace
@@ -36,7 +36,7 @@ class ResultLoader::Worker {
             for (FrameIndex f = 0; f < video.info.frame_count; ++f) video.times_us.push_back(source->timeOf(f));
             close();
             FrameCacheOptions options;
-            options.max_bytes = kPictureBudget;
+            options.max_bytes = pictureBudget(PictureUse::review);
             pictures_ = std::make_unique<FrameCache>(std::move(source), options);
             task.tell([this, ticket, video = std::move(video)] { emit owner_.opened(ticket, video); });
         } catch (const std::exception&) {

@@ -10,6 +10,7 @@
 #include "correction/corrected_tracks.h"
 #include "imaging/picture_look.h"
 #include "session/background/background_query.h"
+#include "session/frames/opened_video.h"
 #include "session/project/media.h"
 
 namespace eyrie::ui {
@@ -19,13 +20,6 @@ struct RunReference {
     std::filesystem::path project;
     int run_id = 0;
     std::shared_ptr<const CorrectedTracks> corrected = {};  ///< what people made of its tracks; null: not shown
-};
-
-/// What is known of a video once it is open.
-struct OpenedVideo {
-    VideoInfo info;
-    std::vector<std::int64_t> times_us;  ///< presentation time of every frame
-    double gsd_m_per_px = 0;             ///< 0: the video does not tell
 };
 
 /// Fetches frames for review in the background: pictures from the video, results from the store (by its own

@@ -1,5 +1,6 @@
 #include "session/project/project_location.h"
 
+#include <QCoreApplication>
 #include <QCryptographicHash>
 #include <QRegularExpression>
 #include <QStandardPaths>
@@ -49,6 +50,20 @@ std::vector<fs::path> projectPlaces(const std::string& media_name, const std::st
 
 bool isSameVideo(const SequenceRecord& known, const VideoInfo& video) {
     return known.size == video.size && known.frame_count == video.frame_count;
+}
+
+QString whyAnotherVideo(const std::string& identity, const VideoInfo& video, const SequenceRecord& known) {
+    return QCoreApplication::translate(
+               "eyrie::ui::ProjectSession",
+               "%1 is another video: it has %2 frames of %3 × %4; that of the project has %5 of "
+               "%6 × %7. Locate the video that the runs were made with.")
+        .arg(QString::fromStdString(identity))
+        .arg(video.frame_count)
+        .arg(video.size.width)
+        .arg(video.size.height)
+        .arg(known.frame_count)
+        .arg(known.size.width)
+        .arg(known.size.height);
 }
 
 std::optional<fs::path> movedBeside(const fs::path& project, const SequenceRecord& known) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QString>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -22,6 +23,8 @@ std::vector<std::filesystem::path> projectPlaces(const std::string& media_name, 
 
 /// Whether a video can be the one a project knows: as many frames of the same size.
 bool isSameVideo(const SequenceRecord& known, const VideoInfo& video);
+/// What is said where it is not: in what they differ, and what to do. `identity` is that of the video.
+QString whyAnotherVideo(const std::string& identity, const VideoInfo& video, const SequenceRecord& known);
 
 /// Where a video that is gone from its place may lie: under its name beside the project. Nothing when there is no such
 /// file or folder.

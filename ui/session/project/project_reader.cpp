@@ -27,11 +27,35 @@ class ProjectReader::Worker {
     ~Worker() { close(); }
 
     void open(const std::filesystem::path& path) {
+        opened_.reset();
+        try {
+            auto fresh = std::make_unique<ProjectFile>(ProjectFile::open(path));
+            ProjectLists lists = listsOf(*fresh);
+            lists.notice = fresh->notice();
+            opened_ = std::move(fresh);
+            tell([this, lists = std::move(lists)] { emit owner_.opened(lists); });
+        } catch (const std::exception& error) {
+            openFailed(path, error);
+        }
+    }
+
+    void takeUp() {
+        const std::unique_ptr<ProjectFile> opened = std::move(opened_);
+        if (!opened) return;  // it took its place at once
+        close();
+        adopt(std::move(*opened));
+        any_running_ = true;  // perhaps; the next look tells
+    }
+
+    void forget() { opened_.reset(); }
+
+    void openInstead(const std::filesystem::path& path) {
         close();
         try {
             adopt(ProjectFile::open(path));
             tellOpened();
         } catch (const std::exception& error) {
+            project_.reset();
             openFailed(path, error);
         }
     }
@@ -48,11 +72,13 @@ class ProjectReader::Worker {
                 eyrie::relocateSequence(*project_, former->id, identity);
             tellOpened();
         } catch (const std::exception& error) {
+            project_.reset();
             openFailed(places.back(), error);
         }
     }
 
     void close() {
+        opened_.reset();
         if (!project_) return;
         try {
             RunStore(*project_).purgeRemoved();
@@ -110,14 +136,14 @@ class ProjectReader::Worker {
 
     void saveCopy(const std::filesystem::path& target) {
         guarded([this, &target](RunStore&) {
-            copyProject(*project_, target);
+            copyProject(*project_, target, StepsMeanwhile::left_out);
             tell([this, target] { emit owner_.copied(target); });
         });
     }
 
     void saveAs(const std::filesystem::path& target) {
         guarded([this, &target](RunStore&) {
-            copyProject(*project_, target);
+            copyProject(*project_, target, StepsMeanwhile::copied_too);
             ProjectFile copy = ProjectFile::open(target);
             close();
             adopt(std::move(copy));
@@ -187,20 +213,25 @@ class ProjectReader::Worker {
         return std::move(*record);
     }
 
-    ProjectLists lists() {
-        const RunStore store(*project_);
-        ProjectLists lists{project_->path(), store.runs(), store.lastRemoved(), {}, sequencesOf(*project_), {}, {}, {}};
-        for (const SequenceRecord& sequence : lists.sequences) readSaid(sequence.id, lists);
+    static ProjectLists listsOf(ProjectFile& project) {
+        const RunStore store(project);
+        ProjectLists lists{project.path(), store.runs(), store.lastRemoved(), {}, sequencesOf(project), {}, {}, {}};
+        for (const SequenceRecord& sequence : lists.sequences) readSaid(project, sequence.id, lists);
         for (const RunRecord& run : resumableRuns(store)) lists.resumable.push_back(run.id);
+        return lists;
+    }
+
+    ProjectLists lists() {
+        ProjectLists lists = listsOf(*project_);
         any_running_ = std::any_of(lists.runs.begin(), lists.runs.end(), [](const RunRecord& run) { return run.live; });
         return lists;
     }
 
     /// When and where a video was taken, as a person said.
-    void readSaid(int sequence_id, ProjectLists& lists) {
+    static void readSaid(ProjectFile& project, int sequence_id, ProjectLists& lists) {
         try {
-            if (const auto start_us = videoStartOf(*project_, sequence_id)) lists.starts[sequence_id] = *start_us;
-            std::vector<ControlPoint> points = readControlPoints(*project_, sequence_id);
+            if (const auto start_us = videoStartOf(project, sequence_id)) lists.starts[sequence_id] = *start_us;
+            std::vector<ControlPoint> points = readControlPoints(project, sequence_id);
             if (!points.empty()) lists.control[sequence_id] = std::move(points);
         } catch (const Error&) {
             // What cannot be read was not said; the rest of the project can be shown.
@@ -214,14 +245,14 @@ class ProjectReader::Worker {
     }
 
     void openFailed(const std::filesystem::path& path, const std::exception& error) {
-        project_.reset();
         tell([this, path, message = QString::fromUtf8(error.what())] { emit owner_.openFailed(path, message); });
     }
 
     ProjectReader& owner_;
     std::unique_ptr<ProjectFile> project_;
-    std::unique_ptr<ChangeWatch> watch_;  ///< of the project
-    bool any_running_ = false;            ///< when it was read last; that one was killed commits nothing
+    std::unique_ptr<ProjectFile> opened_;  ///< it may take the place of the project
+    std::unique_ptr<ChangeWatch> watch_;   ///< of the project
+    bool any_running_ = false;             ///< when it was read last; that one was killed commits nothing
 };
 
 ProjectReader::ProjectReader(std::shared_ptr<CorrectedTracksMemo> corrected_tracks, QObject* parent)
@@ -236,6 +267,18 @@ void ProjectReader::post(Work work) {
 
 void ProjectReader::open(const std::filesystem::path& project) {
     post([project](Worker& worker) { worker.open(project); });
+}
+
+void ProjectReader::takeUp() {
+    post([](Worker& worker) { worker.takeUp(); });
+}
+
+void ProjectReader::forget() {
+    post([](Worker& worker) { worker.forget(); });
+}
+
+void ProjectReader::openInstead(const std::filesystem::path& project) {
+    post([project](Worker& worker) { worker.openInstead(project); });
 }
 
 void ProjectReader::openFor(const std::string& media_name, const std::string& media_identity, const VideoInfo& video,

@@ -38,11 +38,17 @@ class ProjectReader : public QObject {
     /// Closes the project; see close().
     ~ProjectReader() override;
 
-    /// An existing project. Answers with opened() or openFailed().
+    /// An existing project. Answers with opened() or openFailed(). The former one is read and edited on until takeUp().
     void open(const std::filesystem::path& project);
+    /// What was opened last takes the place of the former project.
+    void takeUp();
+    /// What was opened last is not wanted any more.
+    void forget();
+    /// An existing project in place of the former one, which is closed at once. Answers with opened() or openFailed().
+    void openInstead(const std::filesystem::path& project);
     /// The project of a video that was opened: `project`, or where it lies by itself (projectPlaces()); made if need
     /// be. What the project knows of the same video at a former place becomes that of this one. Answers with opened()
-    /// or openFailed().
+    /// or openFailed(): then none is open.
     void openFor(const std::string& media_name, const std::string& media_identity, const VideoInfo& video,
                  const std::filesystem::path& project);
     /// Removed runs are deleted for good.

@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "io/tables/number_text.h"
 #include "rerun/range_run.h"
 #include "session/frames/open_run.h"
 
@@ -61,6 +62,22 @@ SideResult computeSide(const ComparisonPair& pair, const ComparisonSide& side, C
     return result;
 }
 
+/// The scale stands first where it differs: it is no parameter, but decides as much as any.
+std::vector<ParameterDifference> parameterDifferences(const ComparisonPair& pair, const SideResult& first,
+                                                      const SideResult& second) {
+    std::vector<ParameterDifference> differences = differencesBetween(first.options, second.options);
+    ProjectFile project = ProjectFile::open(pair.project, ProjectFile::Mode::read_only);
+    const RunStore store(project);
+    const auto scale_of = [&](const ComparisonSide& side) {
+        const auto run = store.run(side.run_id);
+        return run ? shortestText(run->scale.gsd_m_per_px) : std::string();
+    };
+    const std::string a = scale_of(pair.first);
+    const std::string b = scale_of(pair.second);
+    if (a != b) differences.insert(differences.begin(), {"GSD (m/px)", a, b});
+    return differences;
+}
+
 }  // namespace
 
 SideComparison compareSides(const ComparisonPair& pair, const ComputedPair& computed, const std::stop_token& stop,
@@ -81,7 +98,7 @@ SideComparison compareSides(const ComparisonPair& pair, const ComputedPair& comp
     if (stop.stop_requested()) return comparison;
     const SideResult second = side(pair.second, computed.second.get(), true);
     comparison.exact = first.exact && second.exact;
-    comparison.parameters = differencesBetween(first.options, second.options);
+    comparison.parameters = parameterDifferences(pair, first, second);
     if (stop.stop_requested()) return comparison;
     comparison.tracks = differencesOf(first.tracks, second.tracks);
     if (stop.stop_requested()) return comparison;

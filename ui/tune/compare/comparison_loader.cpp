@@ -7,7 +7,9 @@
 #include "canvas/drawing/image_convert.h"
 #include "io/video/frame_cache.h"
 #include "rerun/replay.h"
+#include "session/frames/picture_budget.h"
 #include "session/frames/stored_frames.h"
+#include "session/project_session.h"
 #include "tune/compare/comparison_computation.h"
 #include "tune/compare/computed_frames.h"
 
@@ -15,8 +17,6 @@ namespace eyrie::ui {
 
 namespace {
 
-constexpr std::size_t kSidePictureBudget = std::size_t{256} << 20U;
-constexpr int kTrailLength = 40;   ///< frames
 constexpr int kSideReadAhead = 8;  ///< frames
 
 /// Where the frames of one side come from.
@@ -51,7 +51,8 @@ class ComparisonLoader::Worker {
             const auto side = [&](const ComparisonSide& wanted, const std::shared_ptr<ComputedFrames>& frames) {
                 SideFrames made;
                 if (!wanted.options) {
-                    made.stored = std::make_unique<StoredFrames>(pair.project, wanted.run_id, kTrailLength);
+                    made.stored =
+                        std::make_unique<StoredFrames>(pair.project, wanted.run_id, ProjectSession::kTrailLength);
                     return made;
                 }
                 made.computed = frames;
@@ -64,7 +65,7 @@ class ComparisonLoader::Worker {
             auto source = pair.media.open({}, stop);
             if (stop.stop_requested()) return;
             FrameCacheOptions options;
-            options.max_bytes = kSidePictureBudget;
+            options.max_bytes = pictureBudget(PictureUse::comparison);
             pictures_ = std::make_unique<FrameCache>(std::move(source), options);
         } catch (const std::exception&) {
             if (!stop.stop_requested()) throw;
@@ -121,8 +122,8 @@ void ComparisonLoader::cancel() {
 void ComparisonLoader::usePair(const ComparisonPair& pair) {
     cancel();
     ComputedPair computed;
-    if (pair.first.options) computed.first = std::make_shared<ComputedFrames>(kTrailLength);
-    if (pair.second.options) computed.second = std::make_shared<ComputedFrames>(kTrailLength);
+    if (pair.first.options) computed.first = std::make_shared<ComputedFrames>(ProjectSession::kTrailLength);
+    if (pair.second.options) computed.second = std::make_shared<ComputedFrames>(ProjectSession::kTrailLength);
     opening_ = query_.post([worker = worker_.get(), pair,
                             computed](const BackgroundTask& task) { worker->open(pair, computed, task.stop()); },
                            answers_.fail);

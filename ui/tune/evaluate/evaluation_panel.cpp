@@ -36,6 +36,21 @@ const QColor kMissedColour(222, 160, 20);
 const QColor kFalseColour(214, 66, 54);
 const QColor kRecallColour(45, 120, 200);
 
+TrackedShare shareOf(const TruthTrackTally& object, Convention convention) {
+    const auto rank = [&] {
+        switch (trackedLife(object, convention)) {
+            case TrackedLife::mostly:
+                return TrackedShare::Rank::mostly;
+            case TrackedLife::mostly_lost:
+                return TrackedShare::Rank::mostly_lost;
+            case TrackedLife::partially:
+                break;
+        }
+        return TrackedShare::Rank::partially;
+    };
+    return {object.id, object.frames, object.matched, object.switches, fragmentsOf(object, convention), rank()};
+}
+
 }  // namespace
 
 EvaluationPanel::EvaluationPanel(ProjectSession& session, EvaluationSession& evaluation, QWidget* parent)
@@ -168,7 +183,7 @@ void EvaluationPanel::refresh() {
     forgetScoreCurve();
     pages_->setCurrentIndex(0);
     if (evaluation_.working()) {
-        empty_->setTexts(tr("The run is being compared with the ground truth…"));
+        empty_->setTexts(EvaluationSession::workingText());
         return;
     }
     const bool has_run = session_.currentRun().has_value() && !session_.running();
@@ -222,9 +237,9 @@ void EvaluationPanel::showCurves() {
     const RunEvaluation& evaluation = *evaluation_.evaluation();
     std::vector<TrackedShare> shares;
     for (const TruthTrackTally& tally : evaluation.shown.tracks.truth)
-        shares.push_back({tally.id, tally.frames, tally.matched, tally.switches, tally.fragments});
+        shares.push_back(shareOf(tally, evaluation.shown.convention));
     tracked_->setVisible(!shares.empty());
-    tracked_->setShares(std::move(shares));
+    tracked_->setShares(std::move(shares), {kMostlyTracked, kMostlyLost});
 
     LineData counts;
     counts.place_label = tr("frame");

@@ -49,6 +49,8 @@ class EvaluationSession : public QObject {
     const std::shared_ptr<const RunEvaluation>& evaluation() const { return evaluation_; }
     /// Why there is none, and what to do; empty when there is one, or one is being computed.
     const QString& obstacle() const { return obstacle_; }
+    /// What is said while it works.
+    static QString workingText() { return tr("The run is being compared with the ground truth…"); }
     bool working() const { return working_; }
     /// What would be computed now; for reports.
     EvaluationRequest request() const;

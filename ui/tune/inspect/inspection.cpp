@@ -148,4 +148,12 @@ void Inspection::request() {
         {frame.index, stages_wanted_ && cluster_ ? *cluster_ : -1, stages_wanted_ && general_wanted_, stacks_wanted_});
 }
 
+QString Inspection::progressText() const {
+    return tr("%1 frames before this one are replayed…").arg(frames_left_);
+}
+
+QString Inspection::waitingText() const {
+    return tr("This frame is being replayed…");
+}
+
 }  // namespace eyrie::ui

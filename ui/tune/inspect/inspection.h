@@ -51,6 +51,9 @@ class Inspection : public QObject {
     const std::shared_ptr<const ReplayView>& view() const { return view_; }
     /// How many frames before the one shown are still to be replayed.
     int framesLeft() const { return frames_left_; }
+    /// The same for people, and what is said until then.
+    QString progressText() const;
+    QString waitingText() const;
     /// Why there is none, for people; empty while it is on its way.
     const QString& problem() const { return problem_; }
 

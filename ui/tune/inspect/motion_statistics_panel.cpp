@@ -13,6 +13,7 @@
 #include "widgets/display_text.h"
 #include "widgets/empty_state.h"
 #include "widgets/wiring.h"
+#include "workspace/first_step.h"
 
 namespace eyrie::ui {
 
@@ -150,7 +151,7 @@ void MotionStatisticsPanel::showSpeeds() {
     const ViewFrame& frame = session_.viewFrame();
     if (wholeRun() ? !counted_ : !frame.result) {
         speed_title_->setText(wholeRun() ? tr("<b>Speed</b>: reading the motion vectors of the run…")
-                                         : tr("The run has not processed this frame."));
+                                         : notProcessedText());
         speeds_->setData({});
         return;
     }

@@ -9,6 +9,7 @@
 #include "tune/inspect/stage_chips.h"
 #include "widgets/empty_state.h"
 #include "widgets/wiring.h"
+#include "workspace/first_step.h"
 
 namespace eyrie::ui {
 
@@ -92,10 +93,10 @@ void StacksPanel::refresh() {
     } else if (!inspection_.problem().isEmpty()) {
         why = inspection_.problem();
     } else if (!session_.viewFrame().result) {
-        why = tr("The run has not processed this frame.");
+        why = notProcessedText();
     }
     if (why.isEmpty()) {  // pictures that are shown stay until others come
-        if (pages_->currentWidget() == empty_) empty_->setTexts(tr("This frame is being replayed…"));
+        if (pages_->currentWidget() == empty_) empty_->setTexts(inspection_.waitingText());
         return;
     }
     empty_->setTexts(why, action);
@@ -105,7 +106,7 @@ void StacksPanel::refresh() {
 }
 
 void StacksPanel::showProgress() {
-    if (looked_at_) summary_->setText(tr("%1 frames before this one are replayed…").arg(inspection_.framesLeft()));
+    if (looked_at_) summary_->setText(inspection_.progressText());
 }
 
 void StacksPanel::showView(const std::shared_ptr<const ReplayView>& view) {

@@ -12,6 +12,7 @@
 #include "tune/inspect/stage_chips.h"
 #include "widgets/empty_state.h"
 #include "widgets/wiring.h"
+#include "workspace/first_step.h"
 
 namespace eyrie::ui {
 
@@ -121,7 +122,7 @@ std::pair<QString, QString> StagesPanel::whyEmpty() const {
                 {}};
     if (session_.following()) return {tr("To see the steps during the run, go to a frame that it has processed."), {}};
     if (!inspection_.problem().isEmpty()) return {inspection_.problem(), {}};
-    if (!result) return {tr("The run has not processed this frame."), {}};
+    if (!result) return {notProcessedText(), {}};
     if (result->clusters.empty()) return {tr("Nothing moves in this frame: there are no motion clusters."), {}};
     if (!inspection_.hasChoice())
         return {tr("Click a cluster, a search area, a detection or a track in the picture to see each step that led to "
@@ -154,7 +155,7 @@ void StagesPanel::refresh() {
         title_->setText(any ? tr("%1 clusters").arg(result->clusters.size()) : tr("No cluster"));
     const auto [why, action] = whyEmpty();
     if (why.isEmpty() && pages_->currentWidget() == empty_)  // pictures that are shown stay until others come
-        empty_->setTexts(tr("This frame is being replayed…"));
+        empty_->setTexts(inspection_.waitingText());
     const bool whole_frame = view_ && view_->differences && !cluster && view_->wish.frame == session_.viewFrame().index;
     general_->setVisible(result != nullptr);
     if (!why.isEmpty() && !whole_frame) {
@@ -166,7 +167,7 @@ void StagesPanel::refresh() {
 }
 
 void StagesPanel::showProgress() {
-    if (looked_at_) summary_->setText(tr("%1 frames before this one are replayed…").arg(inspection_.framesLeft()));
+    if (looked_at_) summary_->setText(inspection_.progressText());
 }
 
 void StagesPanel::showView(const std::shared_ptr<const ReplayView>& view) {

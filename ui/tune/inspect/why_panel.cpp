@@ -10,6 +10,7 @@
 #include "widgets/empty_state.h"
 #include "widgets/theme_colours.h"
 #include "widgets/wiring.h"
+#include "workspace/first_step.h"
 
 namespace eyrie::ui {
 
@@ -96,9 +97,7 @@ void WhyPanel::refresh() {
             tr("Point at a place in the picture, hit or missed, and press Shift+W, or choose “Why?” from its context "
                "menu. Every comparison that was made there is listed, and the one that decided."));
     if (!why_.problem().isEmpty()) return empty(why_.problem());
-    if (!view)
-        return empty(why_.waiting() ? tr("Looking at the frames before this one…")
-                                    : tr("The run has not processed this frame."));
+    if (!view) return empty(why_.waiting() ? tr("Looking at the frames before this one…") : notProcessedText());
     const bool current = view->frame == session_.viewFrame().index && !why_.waiting();
     QString title = why_.about();
     if (!title.isEmpty()) title += QLatin1Char('\n');

@@ -218,7 +218,9 @@ void SweepForm::refresh() {
         count_->setText(tr("No value to try"));
         complete = false;
     } else {
-        count_->setText(complete ? tr("%1 points").arg(QLocale().toString(points, 'f', 0)) : QString());
+        count_->setText(!complete     ? QString()
+                        : points == 1 ? tr("1 point")
+                                      : tr("%1 points").arg(QLocale().toString(points, 'f', 0)));
     }
     start_->setText(tr("Start"));
     showRuns();

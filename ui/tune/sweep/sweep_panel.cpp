@@ -257,8 +257,7 @@ void SweepPanel::setView(SweepView view) {
 SweepCriterion SweepPanel::criterion() const {
     SweepCriterion criterion;
     criterion.key = measure_->currentData().toString().toStdString();
-    const std::string group = measureText(criterion.key).group;
-    criterion.tracks = of_->currentIndex() == 1 || group == "tracking" || group == "identity";
+    criterion.tracks = of_->currentIndex() == 1 || isOfTracks(measureText(criterion.key).group);
     if (overlap_->currentData().isValid()) criterion.overlap = overlap_->currentData().toDouble();
     return criterion;
 }
@@ -320,6 +319,9 @@ void SweepPanel::showTable() {
     QString text = bestPointText(*table, judged) + QStringLiteral("<br>") + truthText(table->plan);
     if (clicked_ && *clicked_ < table->plan.pointCount())
         text += QStringLiteral("<br>") + tr("Chosen: %1").arg(pointText(*table, *clicked_, judged));
+    else
+        text += QStringLiteral("<br>") + tr("Click a point of the chart to choose it, or use the arrow keys there.");
+    chart_->setChosen(chosenPoint().value_or(-1));
     best_->setText(text);
     if (sweeps_.running() && list_->currentData().toInt() == table->id) {
         for (SweepRecord record : sweeps_.sweeps()) {

@@ -193,7 +193,8 @@ void SweepSession::work(const Job& job, const BackgroundTask& task) {
         auto growing = std::make_shared<SweepTable>(readSweep(file, id));
         std::vector<int> positions = workOrder(plan);
         std::erase_if(positions, [&](int position) { return growing->points.contains(position); });
-        task.tell([this, growing] {
+        task.tell([this, growing, project = job.project] {
+            if (project != session_.project()) return;  // it is about to stop
             growing_ = growing;
             selected_ = growing->id;
             table_ = growing_;

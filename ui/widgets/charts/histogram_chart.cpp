@@ -2,14 +2,12 @@
 
 #include <qcustomplot.h>
 
-#include <QApplication>
-#include <QClipboard>
 #include <QContextMenuEvent>
-#include <QMenu>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 
+#include "widgets/charts/copy_menu.h"
 #include "widgets/charts/plot_colours.h"
 #include "widgets/theme_colours.h"
 
@@ -129,10 +127,7 @@ void HistogramChart::changeEvent(QEvent* event) {
 }
 
 void HistogramChart::contextMenuEvent(QContextMenuEvent* event) {
-    QMenu menu;
-    menu.addAction(tr("Copy as text"), this, [this] { QApplication::clipboard()->setText(data_.text()); });
-    menu.addAction(tr("Copy as picture"), this, [this] { QApplication::clipboard()->setPixmap(grab()); });
-    menu.exec(event->globalPos());
+    offerCopies(*this, data_.text(), event->globalPos());
 }
 
 }  // namespace eyrie::ui

@@ -2,10 +2,7 @@
 
 #include <qcustomplot.h>
 
-#include <QApplication>
-#include <QClipboard>
 #include <QContextMenuEvent>
-#include <QMenu>
 #include <QMouseEvent>
 #include <QToolTip>
 #include <QVBoxLayout>
@@ -13,6 +10,7 @@
 #include <cmath>
 #include <limits>
 
+#include "widgets/charts/copy_menu.h"
 #include "widgets/charts/plot_colours.h"
 #include "widgets/theme_colours.h"
 
@@ -164,10 +162,7 @@ void LineChart::changeEvent(QEvent* event) {
 }
 
 void LineChart::contextMenuEvent(QContextMenuEvent* event) {
-    QMenu menu;
-    menu.addAction(tr("Copy as text"), this, [this] { QApplication::clipboard()->setText(data_.text()); });
-    menu.addAction(tr("Copy as picture"), this, [this] { QApplication::clipboard()->setPixmap(grab()); });
-    menu.exec(event->globalPos());
+    offerCopies(*this, data_.text(), event->globalPos());
 }
 
 }  // namespace eyrie::ui

@@ -5,12 +5,15 @@
 #include <QApplication>
 #include <QClipboard>
 #include <QContextMenuEvent>
+#include <QKeyEvent>
 #include <QMenu>
 #include <QMouseEvent>
+#include <QPoint>
 #include <QToolTip>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "widgets/charts/plot_colours.h"
@@ -38,12 +41,31 @@ QCPColorGradient brightnessGradient() {
     return gradient;
 }
 
+/// To the right and up, as an arrow key says; nothing by other keys.
+QPoint stepOf(const QKeyEvent& key) {
+    if ((key.modifiers() & ~Qt::KeypadModifier) != Qt::NoModifier) return {};
+    switch (key.key()) {
+        case Qt::Key_Left:
+            return {-1, 0};
+        case Qt::Key_Right:
+            return {1, 0};
+        case Qt::Key_Up:
+            return {0, 1};
+        case Qt::Key_Down:
+            return {0, -1};
+        default:
+            return {};
+    }
+}
+
 }  // namespace
 
 SweepChart::SweepChart(QWidget* parent) : QWidget(parent), plot_(new QCustomPlot(this)) {
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(plot_);
+    setFocusPolicy(Qt::StrongFocus);
+    setAccessibleName(tr("Chart of the sweep"));
     plot_->setFocusPolicy(Qt::NoFocus);
     plot_->setMouseTracking(true);
     plot_->installEventFilter(this);
@@ -280,6 +302,45 @@ int SweepChart::pointAt(QPointF place, QString& text) const {
         }
     }
     return found;
+}
+
+int SweepChart::pointBeside(int right, int up) const {
+    if (data_.isMap()) {
+        const auto columns = static_cast<int>(data_.columns.size());
+        const int column = chosen_ % columns + right;
+        const int row = chosen_ / columns + up;
+        const bool there = column >= 0 && row >= 0 && column < columns && row < data_.rows.size();
+        return chosen_ >= 0 && there ? row * columns + column : -1;
+    }
+    for (std::size_t line = 0; line < data_.series.size(); ++line) {
+        const std::vector<int>& points = data_.series[line].positions;
+        const auto at = std::find(points.begin(), points.end(), chosen_);
+        if (at == points.end()) continue;
+        const std::ptrdiff_t beside = at - points.begin() + right;
+        const std::ptrdiff_t other = static_cast<std::ptrdiff_t>(line) + up;
+        if (other < 0 || other >= std::ssize(data_.series)) return -1;
+        const std::vector<int>& there = data_.series[static_cast<std::size_t>(other)].positions;
+        return beside >= 0 && beside < std::ssize(there) ? there[static_cast<std::size_t>(beside)] : -1;
+    }
+    return -1;
+}
+
+bool SweepChart::event(QEvent* event) {
+    // Elsewhere arrows step through the video.
+    if (event->type() == QEvent::ShortcutOverride && stepOf(*static_cast<QKeyEvent*>(event)) != QPoint()) {
+        event->accept();
+        return true;
+    }
+    return QWidget::event(event);
+}
+
+void SweepChart::keyPressEvent(QKeyEvent* event) {
+    const QPoint step = stepOf(*event);
+    if (step.isNull()) {
+        QWidget::keyPressEvent(event);
+        return;
+    }
+    if (const int position = pointBeside(step.x(), step.y()); position >= 0) emit pointClicked(position);
 }
 
 bool SweepChart::eventFilter(QObject* watched, QEvent* event) {

@@ -1,27 +1,26 @@
 #include "widgets/charts/tracked_bar.h"
 
-#include <QApplication>
-#include <QClipboard>
 #include <QContextMenuEvent>
 #include <QHelpEvent>
-#include <QMenu>
 #include <QPainter>
 #include <QToolTip>
 #include <algorithm>
+#include <cmath>
 
+#include "widgets/charts/copy_menu.h"
 #include "widgets/theme_colours.h"
 
 namespace eyrie::ui {
 
 namespace {
-constexpr double kMostly = 0.8;
-constexpr double kLost = 0.2;
 const QColor kTrackedColour(46, 160, 90);
 const QColor kPartlyColour(222, 160, 20);
 const QColor kLostColour(214, 66, 54);
 
-const QColor& colourOf(double share) {
-    return share >= kMostly ? kTrackedColour : share < kLost ? kLostColour : kPartlyColour;
+const QColor& colourOf(TrackedShare::Rank rank) {
+    return rank == TrackedShare::Rank::mostly        ? kTrackedColour
+           : rank == TrackedShare::Rank::mostly_lost ? kLostColour
+                                                     : kPartlyColour;
 }
 }  // namespace
 
@@ -31,8 +30,10 @@ TrackedBar::TrackedBar(QWidget* parent) : QWidget(parent) {
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
 }
 
-void TrackedBar::setShares(std::vector<TrackedShare> shares) {
+void TrackedBar::setShares(std::vector<TrackedShare> shares, std::vector<double> limits) {
     shares_ = std::move(shares);
+    lines_ = std::move(limits);
+    lines_.push_back(1);
     std::stable_sort(shares_.begin(), shares_.end(),
                      [](const TrackedShare& a, const TrackedShare& b) { return a.share() > b.share(); });
     update();
@@ -55,8 +56,8 @@ QString TrackedBar::headline() const {
     int mostly = 0;
     int lost = 0;
     for (const TrackedShare& one : shares_) {
-        mostly += one.share() >= kMostly;
-        lost += one.share() < kLost;
+        mostly += one.rank == TrackedShare::Rank::mostly;
+        lost += one.rank == TrackedShare::Rank::mostly_lost;
     }
     return tr("%1 mostly tracked · %2 partially · %3 mostly lost")
         .arg(mostly)
@@ -86,13 +87,13 @@ void TrackedBar::paintEvent(QPaintEvent*) {
     const QRectF area = columns();
     painter.fillRect(area, palette().color(QPalette::Base));
     const QColor grid = blend(palette().color(QPalette::Base), palette().color(QPalette::WindowText), 0.25);
-    for (const double share : {1.0, kMostly, kLost}) {
+    for (const double share : lines_) {
         const double y = area.bottom() - share * area.height();
         painter.setPen(grid);
         painter.drawLine(QPointF(area.left(), y), QPointF(area.right(), y));
         painter.setPen(quietText(palette()));
         painter.drawText(QRectF(0, y - fontMetrics().height() / 2.0, area.left() - 4, fontMetrics().height()),
-                         Qt::AlignRight | Qt::AlignVCenter, tr("%1 %").arg(static_cast<int>(share * 100)));
+                         Qt::AlignRight | Qt::AlignVCenter, tr("%1 %").arg(std::lround(share * 100)));
     }
     const double step = area.width() / std::max<double>(1, static_cast<double>(shares_.size()));
     const double gap = step > 4 ? 1 : 0;
@@ -100,7 +101,7 @@ void TrackedBar::paintEvent(QPaintEvent*) {
         const double height = std::max(1.0, shares_[i].share() * area.height());
         painter.fillRect(QRectF(area.left() + static_cast<double>(i) * step, area.bottom() - height,
                                 std::max(1.0, step - gap), height),
-                         colourOf(shares_[i].share()));
+                         colourOf(shares_[i].rank));
     }
 }
 
@@ -131,10 +132,7 @@ void TrackedBar::mouseReleaseEvent(QMouseEvent* event) {
 }
 
 void TrackedBar::contextMenuEvent(QContextMenuEvent* event) {
-    QMenu menu;
-    menu.addAction(tr("Copy as text"), this, [this] { QApplication::clipboard()->setText(text()); });
-    menu.addAction(tr("Copy as picture"), this, [this] { QApplication::clipboard()->setPixmap(grab()); });
-    menu.exec(event->globalPos());
+    offerCopies(*this, text(), event->globalPos());
 }
 
 }  // namespace eyrie::ui

@@ -6,26 +6,30 @@
 
 namespace eyrie::ui {
 
-/// How much of a true object's life was found.
+/// How much of the life of an object of the ground truth was found.
 struct TrackedShare {
+    enum class Rank { mostly, partially, mostly_lost };
+
     int object = 0;
     int frames = 0;
     int found = 0;
     int switches = 0;
     int fragments = 0;
+    Rank rank = Rank::partially;
 
     double share() const { return frames > 0 ? static_cast<double>(found) / frames : 0; }
 };
 
-/// Every true object as a column as high as the share of its frames in which it was found, best first, in the colours
-/// of mostly tracked (at least 80 %), partially tracked and mostly lost (less than 20 %), with their numbers above. A
-/// click reports the object.
+/// Every object of the ground truth as a column as high as the share of its frames in which it was found, best first,
+/// in the colours of mostly tracked, partially tracked and mostly lost, with their numbers above. A click reports the
+/// object.
 class TrackedBar : public QWidget {
     Q_OBJECT
 
  public:
     explicit TrackedBar(QWidget* parent = nullptr);
-    void setShares(std::vector<TrackedShare> shares);
+    /// `limits`: the shares that part the ranks, where lines are drawn.
+    void setShares(std::vector<TrackedShare> shares, std::vector<double> limits);
     const std::vector<TrackedShare>& shares() const { return shares_; }
     QString text() const;
 
@@ -47,6 +51,7 @@ class TrackedBar : public QWidget {
     QString headline() const;
 
     std::vector<TrackedShare> shares_;
+    std::vector<double> lines_;
 };
 
 }  // namespace eyrie::ui

@@ -237,10 +237,7 @@ bool RunBar::takeGsd() {
     if (refreshing_) return true;
     const auto value = gsdFromText(gsd_->text());
     if (!value) {
-        const auto number = numberFromText(gsd_->text());
-        messages_.showTopic(kGsdTopic, MessageKind::error,
-                            tr("GSD “%1”: %2. Leave the field empty if it is not known.")
-                                .arg(gsd_->text().trimmed(), QString::fromStdString(whyNotAGsd(number.value_or(0)))));
+        messages_.showTopic(kGsdTopic, MessageKind::error, gsdFaultText(gsd_->text()));
         return false;
     }
     // What nobody changed keeps its digits that are not shown, and where it comes from.

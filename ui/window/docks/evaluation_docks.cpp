@@ -120,14 +120,20 @@ void EvaluationDocks::updateWanted() {
 /// bring them back; leaving the docks does, too.
 void EvaluationDocks::showErrorsAlone() {
     if (labelling_ != nullptr && labelling_->active()) return;
-    const bool alone = (evaluation_looked_at_ || errors_looked_at_) && evaluation_->evaluation() != nullptr;
+    const bool looked_at = evaluation_looked_at_ || errors_looked_at_;
+    const bool alone = looked_at && evaluation_->evaluation() != nullptr && !previewed_;
     if (!alone) {
         // In full screen no dock is seen; they come back, and what was shown with them is to be there.
-        if (!actions_.full_screen->isChecked() && !window_.isFullScreen()) giveOverlaysBack();
+        if (previewed_ || (!actions_.full_screen->isChecked() && !window_.isFullScreen())) giveOverlaysBack();
     } else if (!other_overlays_) {
         other_overlays_ = overlays_.profile();
         overlays_.setProfile({{VerdictLayer::kKind}, other_overlays_->detail});
     }
+}
+
+void EvaluationDocks::setPreviewed(bool previewed) {
+    if (std::exchange(previewed_, previewed) != previewed) showErrorsAlone();
+    if (!previewed) showMarks();
 }
 
 void EvaluationDocks::giveOverlaysBack() {
@@ -199,7 +205,7 @@ void EvaluationDocks::showErrors() {
         errors_->emptyState()->setTexts(tr("No errors: every object was found in every frame."));
     else
         errors_->emptyState()->setTexts(
-            evaluation_->working() ? tr("The run is being compared with the ground truth…")
+            evaluation_->working() ? EvaluationSession::workingText()
             : evaluation_->obstacle().isEmpty()
                 ? tr("Every miss, false alarm, switch, fragment, split and merge of the run is listed here with its "
                      "probable cause, once it has been compared with ground truth.")
@@ -225,12 +231,15 @@ void EvaluationDocks::wantChips() {
     chips_->request(std::move(wishes));
 }
 
+QString EvaluationDocks::nothingEvaluatedText() {
+    return tr("Nothing was evaluated yet: open the Evaluation dock.");
+}
+
 void EvaluationDocks::step(int direction) {
     const int id = errors_->neighbour(direction);
     if (id == 0) {
-        messages_.showMessage(MessageKind::info, evaluation_->evaluation()
-                                                     ? tr("No error is listed.")
-                                                     : tr("Nothing was evaluated yet: open the Evaluation dock."));
+        messages_.showMessage(MessageKind::info,
+                              evaluation_->evaluation() ? tr("No error is listed.") : nothingEvaluatedText());
         return;
     }
     goTo(id);
@@ -329,7 +338,7 @@ void EvaluationDocks::correctTruth() {
 void EvaluationDocks::askForReport() {
     const auto& evaluation = evaluation_->evaluation();
     if (!evaluation) {
-        messages_.showMessage(MessageKind::info, tr("Nothing was evaluated yet: open the Evaluation dock."));
+        messages_.showMessage(MessageKind::info, nothingEvaluatedText());
         return;
     }
     const QString name = QFileInfo(QString::fromStdString(evaluation->run.sequence.path)).completeBaseName();
@@ -340,7 +349,7 @@ void EvaluationDocks::askForReport() {
 
 void EvaluationDocks::writeReport(const QString& path) {
     if (report_->working()) {
-        messages_.showMessage(MessageKind::info, tr("A report is being written. Wait until it is done."));
+        messages_.showMessage(MessageKind::info, ReportWriter::workingText());
         return;
     }
     report_->write(path.toStdString(), evaluation_->evaluation(), session_.media(), session_.project());

@@ -48,6 +48,9 @@ class EvaluationDocks : public QObject {
     void step(int direction);
     /// Draws the verdicts of the frame that the canvas shows. To be called after the canvas got another frame.
     void showMarks();
+    /// A preview takes the verdicts away, which are those of the stored run: what it found is shown in their place, and
+    /// they come back with the run.
+    void setPreviewed(bool previewed);
     /// Goes to the place of the selected error and asks there; answers come from who listens to whyRequested().
     void askWhy();
     /// Opens the object of the selected error in the label workspace.
@@ -59,6 +62,7 @@ class EvaluationDocks : public QObject {
     void whyRequested(const OrientedBox& box, const QString& about);
 
  private:
+    static QString nothingEvaluatedText();
     void wireList();
     void wireReport();
     void askForReport();
@@ -87,6 +91,7 @@ class EvaluationDocks : public QObject {
     ErrorChips* chips_;
     bool evaluation_looked_at_ = false;
     bool errors_looked_at_ = false;
+    bool previewed_ = false;
     std::optional<OverlayProfile> other_overlays_;  ///< what was shown before the errors were shown alone
     bool correcting_ = false;                       ///< the labels are open because the truth was wrong
     std::shared_ptr<const RunEvaluation> told_;

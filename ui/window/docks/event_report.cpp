@@ -78,8 +78,7 @@ void EventReport::showWriting(double share) {
 void EventReport::write(const std::filesystem::path& path, ReportedEvents which) {
     if (!parts_.session.runData()) return;
     if (writer_.working()) {
-        parts_.messages.showTopic(kReportTopic, MessageKind::info,
-                                  tr("A report is being written. Wait until it is done."));
+        parts_.messages.showTopic(kReportTopic, MessageKind::info, ReportWriter::workingText());
         return;
     }
     if (which == ReportedEvents::listed && parts_.events.panel().listedNumbers().empty()) {

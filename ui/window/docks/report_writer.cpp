@@ -210,6 +210,10 @@ void ReportWriter::write(WantedReport wanted) {
     });
 }
 
+QString ReportWriter::workingText() {
+    return QCoreApplication::translate("report", "A report is being written. Wait until it is done.");
+}
+
 void ReportWriter::write(const std::filesystem::path& path, const std::shared_ptr<const RunEvaluation>& evaluation,
                          std::optional<Media> media, const std::filesystem::path& project) {
     if (!evaluation) return;

@@ -52,6 +52,8 @@ class ReportWriter {
     void write(const std::filesystem::path& path, const std::shared_ptr<const RunEvaluation>& evaluation,
                std::optional<Media> media, const std::filesystem::path& project = {});
     bool working() const { return working_; }
+    /// What is said to who asks for another one meanwhile.
+    static QString workingText();
     /// Gives up the report that is being written; what was under its name stays.
     void stop() { writing_.request_stop(); }
 

@@ -128,9 +128,7 @@ void ReviewDocks::wireTracks() {
 
 void ReviewDocks::explainNoTracks() {
     const auto& data = session_.runData();
-    QString text = afterFirstStep(
-        session_,
-        tr("The tracks of a run are listed here: one row for each moving vehicle, with its life, speed and size."));
+    QString text = afterFirstStep(session_, TracksPanel::aboutText());
     if (data && !data->record.live && !(session_.ownRun() != nullptr && session_.ownRun()->id == data->record.id))
         text = whyNoTracks(data->facts);
     else if (data)

@@ -10,7 +10,6 @@
 namespace eyrie::ui {
 
 namespace {
-constexpr double kAround_s = 2;
 constexpr double kMostAround_s = 600;
 }  // namespace
 
@@ -21,7 +20,7 @@ ClipDialog::ClipDialog(const ProjectSession& session, const ClipSubject& subject
     around_->setRange(0, kMostAround_s);
     around_->setDecimals(1);
     around_->setSuffix(tr(" s"));
-    around_->setValue(kAround_s);
+    around_->setValue(kAroundClip_s);
     around_->setToolTip(tr("How much is kept before and after"));
     overlay_->setChecked(true);
     addRow(QString(), overlay_);

@@ -167,9 +167,7 @@ void LiveDialog::chooseRecording() {
 void LiveDialog::watch() {
     const auto gsd = gsdFromText(gsd_->text());
     if (!gsd) {
-        const double number = numberFromText(gsd_->text()).value_or(0);
-        showFault(tr("GSD “%1”: %2. Leave the field empty if it is not known.")
-                      .arg(gsd_->text().trimmed(), QString::fromStdString(whyNotAGsd(number))));
+        showFault(gsdFaultText(gsd_->text()));
         gsd_->setFocus();
         return;
     }

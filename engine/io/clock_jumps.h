@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "core/values/ids.h"
+
+namespace eyrie {
+
+/// Whether the time from one frame to the next is no frame's: the clock was set ahead, or the recording paused.
+/// `usual_s`: how long a frame lasts, mostly.
+bool isClockJump(double step_s, double usual_s);
+
+/// Looks after the clock of a video that is read frame by frame. One that goes back is mended when the video is opened.
+class ClockJumps {
+ public:
+    explicit ClockJumps(double frame_rate_hz);  ///< above 0
+    void see(FrameIndex frame, std::int64_t time_us);
+    /// Where it leaps ahead and what to do about it, for people; empty where it does not.
+    std::string text() const;
+
+ private:
+    double usual_s_;
+    std::optional<std::int64_t> last_us_;
+    int count_ = 0;
+    FrameIndex first_ = 0;       ///< the frame behind the first jump
+    std::int64_t first_us_ = 0;  ///< by so much
+};
+
+}  // namespace eyrie

@@ -1,0 +1,87 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "chain/scale_outcomes.h"
+
+/// Which scale outcomes tell, worked out by hand.
+namespace eyrie::scale_outcomes_by_hand_test {
+namespace {
+
+/// Traffic of four cars that is seen under assumptions with some strength, and nothing under the others.
+std::optional<ScaleEstimate> estimate(const std::vector<std::pair<int, double>>& strengths, double looks = 8) {
+    std::vector<ScaleOutcome> outcomes(kScaleAssumptions);
+    for (const auto& [i, strength] : strengths)
+        outcomes.at(static_cast<std::size_t>(i)) = {looks, looks, strength, 4, 4};
+    return estimateOfScale(outcomes);
+}
+
+TEST(ScaleOutcomes, AssumptionsGrowByTwoFifths) {
+    EXPECT_DOUBLE_EQ(assumedGsd(0), 0.04);
+    EXPECT_DOUBLE_EQ(assumedGsd(1), 0.056);
+    EXPECT_NEAR(assumedGsd(8), 0.04 * 14.75789, 1e-6);
+}
+
+TEST(ScaleOutcomes, ScoreIsOfWhatLooksLikeVehiclesAndLittleElse) {
+    // 5 of 10 detections look like vehicles, 2 of 3 tracks have a car's size: 6 · (5/10)² · (3/5)².
+    EXPECT_NEAR((ScaleOutcome{10, 5, 6, 3, 2}).score(), 0.54, 1e-12);
+    EXPECT_EQ((ScaleOutcome{10, 0, 6, 3, 2}).score(), 0);
+    EXPECT_EQ(ScaleOutcome().score(), 0);
+    const ScaleOutcome both = ScaleOutcome{10, 5, 6, 3, 2} + ScaleOutcome{1, 2, 3, 4, 5};
+    EXPECT_EQ(both.detections, 11);
+    EXPECT_EQ(both.looks, 7);
+    EXPECT_EQ(both.decision, 9);
+    EXPECT_EQ(both.tracks, 7);
+    EXPECT_EQ(both.cars, 7);
+}
+
+TEST(ScaleOutcomes, ACarIsNeitherShorterNorWiderThanCarsAre) {
+    EXPECT_TRUE(isCarSized(3.61, 1.51));
+    EXPECT_TRUE(isCarSized(6.59, 3.79));
+    for (const auto& [length, width] : {std::pair(3.6, 2.0), {6.6, 2.0}, {5.0, 1.5}, {5.0, 3.8}})
+        EXPECT_FALSE(isCarSized(length, width)) << length << " x " << width;
+}
+
+TEST(ScaleOutcomes, OneAssumptionAloneIsTheScale) {
+    for (const int i : {0, 4, 8}) {
+        const auto found = estimate({{i, 1}});
+        ASSERT_TRUE(found) << i;
+        EXPECT_NEAR(found->gsd_m_per_px, assumedGsd(i), 1e-12);
+        EXPECT_EQ(found->vehicles, 4);
+        // The logarithm's variance: its own, and a twelfth of a step's square for each of four cars.
+        const double step = std::log(1.4);
+        EXPECT_NEAR(found->uncertainty, std::exp(1.645 * std::sqrt(0.11 * 0.11 + step * step / 12 / 4)), 1e-9);
+    }
+}
+
+TEST(ScaleOutcomes, NeighboursPullAsTheSquaresOfTheirScores) {
+    EXPECT_NEAR(estimate({{4, 1}, {5, 1}})->gsd_m_per_px, assumedGsd(4) * std::sqrt(1.4), 1e-12);
+    EXPECT_NEAR(estimate({{4, 1}, {5, 0.5}})->gsd_m_per_px, assumedGsd(4) * std::pow(1.4, 0.2), 1e-12);
+    EXPECT_NEAR(estimate({{3, 0.5}, {4, 1}})->gsd_m_per_px, assumedGsd(4) * std::pow(1.4, -0.2), 1e-12);
+    const double step = std::log(1.4);
+    EXPECT_NEAR(estimate({{4, 1}, {5, 1}})->uncertainty,
+                std::exp(1.645 * std::sqrt(0.11 * 0.11 + (step * step / 4 + step * step / 12) / 4)), 1e-9);
+}
+
+TEST(ScaleOutcomes, OnlyTwoAssumptionsOnEitherSideHaveASay) {
+    EXPECT_NEAR(estimate({{4, 1}, {6, 1}})->gsd_m_per_px, assumedGsd(5), 1e-12);
+    EXPECT_NEAR(estimate({{2, 0.9999}, {4, 1}})->gsd_m_per_px, assumedGsd(3), 1e-4);
+    EXPECT_NEAR(estimate({{4, 1}, {7, 0.9}})->gsd_m_per_px, assumedGsd(4), 1e-12);
+    EXPECT_NEAR(estimate({{1, 0.9}, {4, 1}})->gsd_m_per_px, assumedGsd(4), 1e-12);
+    EXPECT_NEAR(estimate({{0, 1}, {2, 1}})->gsd_m_per_px, assumedGsd(1), 1e-12);
+    EXPECT_NEAR(estimate({{6, 1}, {8, 1}})->gsd_m_per_px, assumedGsd(7), 1e-12);
+}
+
+TEST(ScaleOutcomes, ChanceIsNoTraffic) {
+    EXPECT_TRUE(estimate({{4, 1}}, 8));
+    EXPECT_FALSE(estimate({{4, 1}}, 7));
+    EXPECT_FALSE(estimate({}));
+    std::vector<ScaleOutcome> outcomes(kScaleAssumptions);
+    outcomes[4] = {20, 20, 5, 4, 1};
+    EXPECT_TRUE(estimateOfScale(outcomes));
+    outcomes[4].cars = 0;
+    EXPECT_FALSE(estimateOfScale(outcomes)) << "nothing has a car's size";
+}
+
+}  // namespace
+}  // namespace eyrie::scale_outcomes_by_hand_test
