@@ -45,7 +45,7 @@ TrackHalf::TrackHalf(const ChainOptions& options, const SceneScale& scale)
     if (options.difference.method != MotionMethod::vectors)
         difference_ = std::make_unique<DifferenceMotion>(options.difference, scale);
     if (looksThroughWindows(options.detection.method)) {
-        appearance_.emplace(makeVehicleAppearance(options.detection.sliding_window, scale));
+        classifier_.emplace(makeBoxClassifier(options.detection.sliding_window, scale));
         scores_.emplace(scale);
     }
     if (options.stacking.enabled) stacker_ = std::make_unique<ImageStacker>(options.stacking, scale);
@@ -129,9 +129,9 @@ FrameResult TrackHalf::next(const Frame& frame, FrameMotion motion, StageTimes t
         removal_ = {};
         result.detections = removed(std::move(result.detections), result.motion, options_, scale_, &removal_);
     }
-    if (appearance_) {
+    if (classifier_) {
         const Stopwatch watch(times, Stage::detection);
-        appearance_->judge(result.detections, frame);
+        classifier_->judge(result.detections, frame);
     }
     if (stacker_) {
         const Stopwatch watch(times, Stage::stacking);

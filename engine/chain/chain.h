@@ -9,7 +9,7 @@
 #include "core/values/frame.h"
 #include "core/values/frame_result.h"
 #include "detection/cluster_search.h"
-#include "detection/sliding_window/vehicle_appearance.h"
+#include "detection/sliding_window/box_classifier.h"
 #include "motion/differences/difference_motion.h"
 #include "tracking/live_scores.h"
 
@@ -92,8 +92,8 @@ class TrackHalf {
     std::unique_ptr<ImageStacker> stacker_;  ///< null: no stacking
     ClusterSearch search_;
     Tracker tracker_;
-    std::optional<VehicleAppearance> appearance_;  ///< nothing: no classifier takes part
-    std::optional<LiveScores> scores_;             ///< likewise
+    std::optional<BoxClassifier> classifier_;  ///< nothing: no classifier takes part
+    std::optional<LiveScores> scores_;         ///< likewise
     RemovalTrace removal_;
 };
 

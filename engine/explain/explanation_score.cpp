@@ -49,9 +49,9 @@ std::string looksText(const TrackEvidence& evidence) {
     const std::string whole = evidence.looked_alike > 0 ? "it was found as a whole vehicle in " +
                                                               percentText(evidence.looked_alike) + " of its detections"
                                                         : std::string("it was never found as a whole vehicle");
-    if (std::isnan(evidence.appearance)) return "nobody looked at its appearance; " + whole;
-    return "to the classifier its appearance is worth " + signedText(evidence.appearance) +
-           " on average, vehicles lie above 0; " + whole;
+    if (std::isnan(evidence.decision)) return "nobody asked the classifier for its boxes; " + whole;
+    return "the classifier gives its boxes " + signedText(evidence.decision) +
+           " on average, where vehicles lie above 0; " + whole;
 }
 
 }  // namespace

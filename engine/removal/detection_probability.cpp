@@ -14,8 +14,8 @@ constexpr double kMostSupport = 3;   ///< vectors per vector expected
 
 constexpr std::size_t kDetectionFigures = 9;
 /// As tests/learn_track_score prints them.
-constexpr std::array<double, kDetectionFigures> kDetectionWeights{-4.349, 0.553, 0.184, -0.559, 2.469,
-                                                                  -3.290, 1.352, 2.292, 0.881};
+constexpr std::array<double, kDetectionFigures> kDetectionWeights{-4.776, 1.027, 0.342, -0.127, 2.203,
+                                                                  -1.546, 0.867, 1.394, 2.137};
 
 std::array<double, kDetectionFigures> figuresOf(const Detection& detection, const Homography& map) {
     const cv::Point2d at = detection.box.centre;

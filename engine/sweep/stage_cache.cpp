@@ -17,7 +17,7 @@
 #include "core/labels/result_box.h"
 #include "detection/detector_factory.h"
 #include "detection/roi_cutter.h"
-#include "detection/sliding_window/vehicle_appearance.h"
+#include "detection/sliding_window/box_classifier.h"
 
 namespace eyrie {
 namespace {
@@ -267,13 +267,13 @@ std::shared_ptr<const StageCache::Detected> StageCache::detected(const Point& po
             const auto found = this->found(point, motion);
             count(ChainStage::removal);
             detected->frames.resize(motion.size());
-            std::optional<VehicleAppearance> appearance;
+            std::optional<BoxClassifier> classifier;
             if (looksThroughWindows(point.options.detection.method))
-                appearance.emplace(makeVehicleAppearance(point.options.detection.sliding_window, point.scale));
+                classifier.emplace(makeBoxClassifier(point.options.detection.sliding_window, point.scale));
             forFrames(point.stop, [&](std::size_t i, ClipFrames::Reader& reader) {
                 detected->frames[i] = removed((*found)[i], motion[i], point.options, point.scale);
-                if (appearance && appearance->looksAt(motion[i].frame))
-                    appearance->judge(detected->frames[i], reader.read(motion[i].frame));
+                if (classifier && classifier->looksAt(motion[i].frame))
+                    classifier->judge(detected->frames[i], reader.read(motion[i].frame));
             });
         }
         detected->boxes = keptBoxes(motion, detected->frames);

@@ -77,7 +77,7 @@ void LiveScores::Window::transfer(Archive& archive) {
 
 template <class Archive>
 void LiveScores::Known::transfer(Archive& archive) {
-    archive(tally.states, tally.detected, tally.looks.alike, tally.looks.looked_at, tally.looks.appearance_sum, states,
+    archive(tally.states, tally.detected, tally.looks.alike, tally.looks.looked_at, tally.looks.decision_sum, states,
             open, closed);
 }
 

@@ -409,6 +409,7 @@ TEST(Explanation, whatSpeaksForATrackAndAgainstItIsTold) {
     TrackEvidence judged;
     judged.detected = 0.9;
     judged.looked_alike = 0.25;
+    judged.decision = 4;
     judged.life_s = 4;
     judged.flow_px = 2;
     judged.flow_ratio = 0.2;
@@ -423,7 +424,7 @@ TEST(Explanation, whatSpeaksForATrackAndAgainstItIsTold) {
     };
     EXPECT_EQ(stepWith("probability of 0.91, at least").parameter, "finishing.min_score");
     EXPECT_EQ(stepWith("probability of 0.91, at least").verdict, StepVerdict::passed);
-    EXPECT_THAT(stepWith("looked like a vehicle in 25 % of its detections").text, HasSubstr("speaks for a moving"));
+    EXPECT_THAT(stepWith("found as a whole vehicle in 25 % of its detections").text, HasSubstr("speaks for a moving"));
     EXPECT_THAT(stepWith("detected in 90 % of its frames").text, HasSubstr("speaks for a moving"));
     EXPECT_THAT(stepWith("0.2 times as fast as the ground").text, HasSubstr("speaks against it, −"));
     EXPECT_FALSE(stepWith("a standing thing would have to be 0.165 of the flight height tall").text.empty());

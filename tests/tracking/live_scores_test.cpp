@@ -39,7 +39,7 @@ struct TurningCar {
         Detection detection;
         detection.box = stateAt(frame).box;
         detection.complete = frame % 3 == 0;
-        if (frame % 4 == 0) detection.appearance = 0.3 * frame - 8;
+        if (frame % 4 == 0) detection.decision = 0.3 * frame - 8;
         return {detection};
     }
 };

@@ -173,14 +173,14 @@ const Seen& street() {
 
 /// px by which a place may differ: vectors are floats, pictures are sampled to a thirty-second of a pixel.
 double toleranceOf(const TrackerOptions& options) {
-    return options.appearance == AppearanceUse::none ? 0.003 : 0.2;
+    return options.decision == AppearanceUse::none ? 0.003 : 0.2;
 }
 
 std::vector<TrackerOptions> kindsOfTracking() {
     TrackerOptions by_look;
-    by_look.appearance = AppearanceUse::lost;
+    by_look.decision = AppearanceUse::lost;
     TrackerOptions blind;
-    blind.appearance = AppearanceUse::none;
+    blind.decision = AppearanceUse::none;
     TrackerOptions whole = blind;
     whole.adapt_size = false;
     whole.visible_overlap = false;

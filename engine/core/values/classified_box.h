@@ -11,7 +11,7 @@ namespace eyrie {
 struct ClassifiedBox {
     OrientedBox box;
     bool whole = false;  ///< it was found as a whole vehicle; see Detection::complete
-    double appearance = std::numeric_limits<double>::quiet_NaN();  ///< see Detection::appearance
+    double decision = std::numeric_limits<double>::quiet_NaN();  ///< see Detection::decision
 };
 
 /// Those detections that were kept and of which the classifier says something.

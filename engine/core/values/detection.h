@@ -32,7 +32,7 @@ struct Detection {
     double probability = std::numeric_limits<double>::quiet_NaN();
     /// How much it looks like a vehicle to the classifier: the decision value of a window laid over the box, above 0
     /// for vehicles. NaN where nobody looked: rejected, no classifier takes part, or another frame of the second.
-    double appearance = std::numeric_limits<double>::quiet_NaN();
+    double decision = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// What results tell of it: its probability where it has one.

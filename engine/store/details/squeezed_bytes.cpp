@@ -16,7 +16,7 @@ constexpr std::byte kDeflated{1};
 constexpr std::size_t kSqueezedHeader = 6;
 constexpr int kQuick = 1;  ///< zlib's level: a run does this for every frame
 constexpr std::size_t kBoxBytes = 7 * sizeof(double);
-constexpr std::size_t kBareBoxBytes = 5 * sizeof(double);  ///< before appearance was known
+constexpr std::size_t kBareBoxBytes = 5 * sizeof(double);  ///< before decisions were known
 constexpr std::size_t kBytesOfVector = 28;                 ///< as packMotionVectors() lays them
 
 /// Byte i of every record behind byte i − 1 of every record; the other way round with `back`.
@@ -91,9 +91,9 @@ std::optional<std::vector<MotionVector>> unsqueezeMotionVectors(ByteView bytes) 
 Bytes squeezeBoxes(std::span<const ClassifiedBox> boxes) {
     std::vector<double> numbers;
     numbers.reserve(boxes.size() * 7);
-    for (const auto& [box, whole, appearance] : boxes) {
+    for (const auto& [box, whole, decision] : boxes) {
         numbers.insert(numbers.end(),
-                       {box.centre.x, box.centre.y, box.length, box.width, box.heading, whole ? 1.0 : 0.0, appearance});
+                       {box.centre.x, box.centre.y, box.length, box.width, box.heading, whole ? 1.0 : 0.0, decision});
     }
     return squeezed(std::as_bytes(std::span(numbers)), kBoxBytes);
 }
@@ -108,12 +108,12 @@ std::optional<std::vector<ClassifiedBox>> unsqueezeBoxes(ByteView bytes) {
         std::memcpy(&number, at, sizeof number);
         at += sizeof number;
     };
-    for (auto& [box, whole, appearance] : boxes) {
+    for (auto& [box, whole, decision] : boxes) {
         for (double* number : {&box.centre.x, &box.centre.y, &box.length, &box.width, &box.heading}) read(*number);
         double found_whole = 1;
         if (!bare) {
             read(found_whole);
-            read(appearance);
+            read(decision);
         }
         whole = found_whole != 0;
     }

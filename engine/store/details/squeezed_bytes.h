@@ -12,7 +12,7 @@ Bytes squeezed(ByteView bytes, std::size_t stride);
 /// Nothing for bytes that no squeezing yields, and where more than `most` bytes would come out.
 std::optional<Bytes> unsqueezed(ByteView bytes, std::size_t most = std::size_t{1} << 28U);
 
-/// The same of motion vectors and of classified boxes, exact. Boxes as they were written before appearance was known
+/// The same of motion vectors and of classified boxes, exact. Boxes as they were written before decisions were known
 /// are read, too: of whole vehicles.
 Bytes squeezeMotionVectors(std::span<const MotionVector> vectors);
 std::optional<std::vector<MotionVector>> unsqueezeMotionVectors(ByteView bytes);

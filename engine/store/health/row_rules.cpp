@@ -213,7 +213,7 @@ std::vector<RowRule> rowRules() {
              " AND detected BETWEEN 0 AND 1 AND looked_alike BETWEEN 0 AND 1 AND life_s BETWEEN 0 AND 1e300 AND "
              "alignment BETWEEN -1.001 AND 1.001 AND score BETWEEN 0 AND 1",
          "what speaks for a track is impossible"},
-        {"track_evidence", "(appearance IS NULL OR appearance BETWEEN -6 AND 12)",
+        {"track_evidence", "(decision IS NULL OR decision BETWEEN -6 AND 12)",
          "how much a track looks like a vehicle is impossible", 24},
         {"run_state", frame, "state of a run is impossible"},
         {"dropped_state", frame + " AND " + isOneOf("reason", stored::kTrackDrops),

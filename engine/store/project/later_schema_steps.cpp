@@ -466,24 +466,24 @@ void addDoubtfulIndex(SQLite::Database& database) {
     database.exec("CREATE INDEX doubtful_state_of_track ON doubtful_state (run_id, track_id, frame)");
 }
 
-// How much detections and tracks look like vehicles to the classifier.
-void addAppearance(SQLite::Database& database) {
+// What the classifier says of the boxes of detections and tracks.
+void addDecisions(SQLite::Database& database) {
     database.exec(R"sql(
-ALTER TABLE detection ADD COLUMN appearance REAL;
-ALTER TABLE track_evidence ADD COLUMN appearance REAL;
+ALTER TABLE detection ADD COLUMN decision REAL;
+ALTER TABLE track_evidence ADD COLUMN decision REAL;
 DROP VIEW IF EXISTS v_detections;
 CREATE VIEW v_detections AS
 SELECT detection.run_id AS run, detection.frame, detection.number, detection.x, detection.y,
     detection.length AS length_px, detection.width AS width_px,
     detection.heading_rad * 57.29577951308232
         + CASE WHEN detection.heading_rad < 0 THEN 360 ELSE 0 END AS heading_deg,
-    detection.score, detection.rejection, detection.probability, detection.appearance
+    detection.score, detection.rejection, detection.probability, detection.decision
 FROM detection JOIN v_runs ON v_runs.run = detection.run_id;
 DROP VIEW IF EXISTS v_track_evidence;
 CREATE VIEW v_track_evidence AS
 SELECT track_evidence.run_id AS run, track_evidence.track_id AS track, track_evidence.detected,
     track_evidence.looked_alike, track_evidence.life_s, track_evidence.flow_px, track_evidence.flow_ratio,
-    track_evidence.alignment, track_evidence.score, track_evidence.appearance
+    track_evidence.alignment, track_evidence.score, track_evidence.decision
 FROM track_evidence JOIN v_runs ON v_runs.run = track_evidence.run_id;
 )sql");
 }

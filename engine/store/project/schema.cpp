@@ -22,7 +22,7 @@ constexpr std::array kMigrations{addRuns,          addLabels,        addComparis
                                  addZones,         addScaleSlopes,   addKeptDetails,
                                  addEvidence,      addCorrections,   addLocalScales,
                                  addAssumedRates,  addCompactStates, addVideoStarts,
-                                 addArrows,        addDoubtfulIndex, addAppearance};
+                                 addArrows,        addDoubtfulIndex, addDecisions};
 
 }  // namespace
 

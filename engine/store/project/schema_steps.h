@@ -31,6 +31,6 @@ void addCompactStates(SQLite::Database& database);
 void addVideoStarts(SQLite::Database& database);
 void addArrows(SQLite::Database& database);
 void addDoubtfulIndex(SQLite::Database& database);
-void addAppearance(SQLite::Database& database);
+void addDecisions(SQLite::Database& database);
 
 }  // namespace eyrie::schema

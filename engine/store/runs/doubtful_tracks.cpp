@@ -45,7 +45,7 @@ void insertDoubtful(SQLite::Database& database, int run_id, const TracksOfRun& t
     SQLite::Statement evidence_of(
         database,
         "INSERT INTO track_evidence (run_id, track_id, detected, looked_alike, life_s, "
-        "flow_px, flow_ratio, alignment, score, appearance) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+        "flow_px, flow_ratio, alignment, score, decision) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
     for (const auto& [track, evidence] : tracks.evidence) {
         RowWriter(evidence_of)
             .integer(run_id)
@@ -57,7 +57,7 @@ void insertDoubtful(SQLite::Database& database, int run_id, const TracksOfRun& t
             .real(evidence.flow_ratio)
             .real(evidence.alignment)
             .real(evidence.score)
-            .real(evidence.appearance)
+            .real(evidence.decision)
             .run();
     }
 }
@@ -126,7 +126,7 @@ std::optional<TrackEvidence> DoubtfulTracks::evidence(int run_id, TrackId track)
         [&]() -> std::optional<TrackEvidence> {
             SQLite::Statement statement(project_.database(),
                                         "SELECT detected, looked_alike, life_s, flow_px, flow_ratio, "
-                                        "alignment, score, appearance FROM track_evidence WHERE run_id = ? AND "
+                                        "alignment, score, decision FROM track_evidence WHERE run_id = ? AND "
                                         "track_id = ?");
             statement.bind(1, run_id);
             statement.bind(2, track);
@@ -138,7 +138,7 @@ std::optional<TrackEvidence> DoubtfulTracks::evidence(int run_id, TrackId track)
                 *value = row.real();
                 if (!std::isfinite(*value)) throw MalformedRow{"evidence that is no number"};
             }
-            evidence.appearance = row.real();
+            evidence.decision = row.real();
             return evidence;
         });
 }

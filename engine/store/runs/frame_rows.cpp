@@ -120,7 +120,7 @@ FrameRows::FrameRows(SQLite::Database& database)
       roi_(database, insertInto("roi", "run_id, frame, number, x, y, length, width, heading_rad")),
       detection_(database, insertInto("detection",
                                       "run_id, frame, number, x, y, length, width, heading_rad, vx, vy, score, "
-                                      "cluster, rejection, vectors, complete, probability, appearance")),
+                                      "cluster, rejection, vectors, complete, probability, decision")),
       unfinished_(database),
       tracks_(database) {
     for (const char* table :
@@ -207,7 +207,7 @@ void FrameRows::insertDetails(int run_id, const FrameResult& result) {
             .bytes(members)
             .integer(detection.complete ? 1 : 0)
             .real(detection.probability)
-            .real(detection.appearance)
+            .real(detection.decision)
             .run();
     }
 }

@@ -168,7 +168,7 @@ std::vector<Detection> readDetections(SQLite::Database& database, int run_id, Fr
     return readItems<Detection>(
         database,
         "SELECT x, y, length, width, heading_rad, vx, vy, score, cluster, rejection, vectors, complete, "
-        "probability, appearance FROM detection WHERE run_id = ? AND frame = ? ORDER BY number",
+        "probability, decision FROM detection WHERE run_id = ? AND frame = ? ORDER BY number",
         run_id, frame, [&](RowReader& row) {
             Detection detection;
             detection.box = row.box();
@@ -179,7 +179,7 @@ std::vector<Detection> readDetections(SQLite::Database& database, int run_id, Fr
             detection.vectors = readIndices(row, vectors);
             detection.complete = row.integer() != 0;
             detection.probability = row.real();
-            detection.appearance = row.real();
+            detection.decision = row.real();
             return detection;
         });
 }
@@ -309,11 +309,10 @@ BoxesByFrame RunStore::trackBoxes(int run_id) const {
 std::vector<ClassifiedBox> RunStore::classifiedBoxes(int run_id, FrameIndex frame) const {
     return guarded(project_.path(), "reading the detections" + ofRun(run_id), [&] {
         if (auto aside = UnfinishedFrames::classified(project_.database(), run_id, frame)) return std::move(*aside);
-        SQLite::Statement statement(
-            project_.database(),
-            "SELECT x, y, length, width, heading_rad, complete, appearance FROM detection WHERE "
-            "run_id = ? AND frame = ? AND rejection = 'none' AND "
-            "(complete OR appearance IS NOT NULL) ORDER BY number");
+        SQLite::Statement statement(project_.database(),
+                                    "SELECT x, y, length, width, heading_rad, complete, decision FROM detection WHERE "
+                                    "run_id = ? AND frame = ? AND rejection = 'none' AND "
+                                    "(complete OR decision IS NOT NULL) ORDER BY number");
         statement.bind(1, run_id);
         statement.bind(2, frame);
         std::vector<ClassifiedBox> boxes;
@@ -322,7 +321,7 @@ std::vector<ClassifiedBox> RunStore::classifiedBoxes(int run_id, FrameIndex fram
             ClassifiedBox& read = boxes.emplace_back();
             read.box = row.box();
             read.whole = row.integer() != 0;
-            read.appearance = row.real();
+            read.decision = row.real();
         }
         return boxes;
     });

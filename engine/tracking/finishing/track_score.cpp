@@ -17,11 +17,11 @@ constexpr double kLifeOffset = 0.1;  ///< s
 constexpr double kLeastInPicture = 0.3;  ///< of the flow: what moves that much through the picture does not stick to it
 constexpr double kDeepestRatio = 0.25;   ///< of own motion to the flow: a fifth of the flight's height below the ground
 
-constexpr double kUnknownAppearance = 1;  ///< tells nothing
+constexpr double kUnknownDecision = 1;  ///< tells nothing
 
 constexpr std::size_t kFigures = 8;
 /// As tests/learn_track_score prints them.
-constexpr std::array<double, kFigures> kWeights{0, 0, 0, 0, 0, 0, 0, 0};
+constexpr std::array<double, kFigures> kWeights{-3.738, 4.932, 0.433, 0.577, -0.830, -0.087, 1.271, -0.967};
 
 /// How far a thing that seems to move against the ground's flow may do so without moving, 0 … 1: it keeps its place in
 /// the picture, as dirt on the lens does, or lies a little below the ground's plane.
@@ -34,10 +34,10 @@ double stillAgainstFlow(const TrackEvidence& e) {
 
 std::array<double, kFigures> figuresOf(const TrackEvidence& e) {
     const double flow = std::log1p(std::min(e.flow_px, kMostFlow));
-    const double appearance = std::isnan(e.appearance) ? kUnknownAppearance : e.appearance;
+    const double decision = std::isnan(e.decision) ? kUnknownDecision : e.decision;
     return {1,
             e.detected,
-            appearance,
+            decision,
             std::log(e.life_s + kLifeOffset),
             flow,
             flow * stillAgainstFlow(e),
@@ -52,7 +52,7 @@ TrackEvidence evidenceOf(const TrackTally& tally, const std::optional<FlowCompar
     const double states = std::max(1, tally.states);
     evidence.detected = tally.detected / states;
     evidence.looked_alike = static_cast<double>(tally.looks.alike) / std::max(1, tally.detected);
-    evidence.appearance = tally.looks.appearance();
+    evidence.decision = tally.looks.decision();
     evidence.life_s = states / frame_rate_hz;
     if (motion) {
         evidence.flow_px = motion->flow;

@@ -10,8 +10,8 @@
 namespace eyrie {
 namespace {
 
-constexpr double kLeastAppearance = -6;
-constexpr double kMostAppearance = 12;
+constexpr double kLeastDecision = -6;
+constexpr double kMostDecision = 12;
 
 }  // namespace
 
@@ -23,18 +23,18 @@ void TrackLooks::add(const OrientedBox& box, const std::vector<ClassifiedBox>& c
         const double off = std::hypot(other.box.centre.x - box.centre.x, other.box.centre.y - box.centre.y);
         if (off >= std::max(box.length, box.width) / 2) continue;
         whole = whole || other.whole;
-        if (std::isnan(other.appearance) || off >= nearest_off) continue;
+        if (std::isnan(other.decision) || off >= nearest_off) continue;
         nearest = &other;
         nearest_off = off;
     }
     alike += whole ? 1 : 0;
     if (nearest == nullptr) return;
     ++looked_at;
-    appearance_sum += std::clamp(nearest->appearance, kLeastAppearance, kMostAppearance);
+    decision_sum += std::clamp(nearest->decision, kLeastDecision, kMostDecision);
 }
 
-double TrackLooks::appearance() const {
-    return looked_at > 0 ? appearance_sum / looked_at : std::numeric_limits<double>::quiet_NaN();
+double TrackLooks::decision() const {
+    return looked_at > 0 ? decision_sum / looked_at : std::numeric_limits<double>::quiet_NaN();
 }
 
 VehicleLooks looksOf(const std::vector<TrackPath>& paths, const ClassifiedAt& classified_at) {

@@ -9,14 +9,14 @@ namespace eyrie {
 
 /// What the classifier said of the detected states of a track.
 struct TrackLooks {
-    int alike = 0;              ///< states in which it took it for a whole vehicle
-    int looked_at = 0;          ///< states of whose detection the appearance is known
-    double appearance_sum = 0;  ///< of those, each held to the limits of TrackEvidence::appearance
+    int alike = 0;            ///< states in which it took it for a whole vehicle
+    int looked_at = 0;        ///< states of whose detection the decision is known
+    double decision_sum = 0;  ///< of those, each held to the limits of TrackEvidence::decision
 
     /// Adds a detected state of this box; `classified` is what is known of its frame.
     void add(const OrientedBox& box, const std::vector<ClassifiedBox>& classified);
     /// Mean; NaN where nobody looked.
-    double appearance() const;
+    double decision() const;
 };
 
 /// Of tracks that the classifier says nothing of there is nothing.

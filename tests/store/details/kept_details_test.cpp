@@ -71,8 +71,8 @@ TEST_F(KeptDetails, UntilARunIsFinishedItHasWhatFinishingNeeds) {
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         EXPECT_EQ(boxes[i].box.centre, expected[i].box.centre);
         EXPECT_EQ(boxes[i].whole, expected[i].whole);
-        EXPECT_TRUE(boxes[i].appearance == expected[i].appearance ||
-                    (std::isnan(boxes[i].appearance) && std::isnan(expected[i].appearance)));
+        EXPECT_TRUE(boxes[i].decision == expected[i].decision ||
+                    (std::isnan(boxes[i].decision) && std::isnan(expected[i].decision)));
     }
     EXPECT_TRUE(checkProject(path_).healthy());
 }

@@ -26,12 +26,12 @@ TEST(SqueezedBytes, ComeBackAsTheyWere) {
     EXPECT_EQ((*read)[1].box.heading, -3);
     EXPECT_TRUE((*read)[0].whole);
     EXPECT_FALSE((*read)[1].whole);
-    EXPECT_EQ((*read)[0].appearance, -2.5);
-    EXPECT_TRUE(std::isnan((*read)[1].appearance));
+    EXPECT_EQ((*read)[0].decision, -2.5);
+    EXPECT_TRUE(std::isnan((*read)[1].decision));
     EXPECT_TRUE(unsqueezeBoxes(squeezeBoxes({}))->empty());
 }
 
-TEST(SqueezedBytes, BoxesOfBeforeAppearanceWasKnownAreThoseOfWholeVehicles) {
+TEST(SqueezedBytes, BoxesOfBeforeDecisionsWereKnownAreThoseOfWholeVehicles) {
     const std::vector<double> numbers{1, 2, 20, 10, 0.5, 3, 4, 30, 15, -0.5};
     const auto read = unsqueezeBoxes(squeezed(std::as_bytes(std::span(numbers)), 5 * sizeof(double)));
     ASSERT_TRUE(read.has_value());
@@ -39,7 +39,7 @@ TEST(SqueezedBytes, BoxesOfBeforeAppearanceWasKnownAreThoseOfWholeVehicles) {
     EXPECT_EQ((*read)[1].box.centre, cv::Point2d(3, 4));
     EXPECT_EQ((*read)[1].box.heading, -0.5);
     EXPECT_TRUE((*read)[0].whole && (*read)[1].whole);
-    EXPECT_TRUE(std::isnan((*read)[0].appearance));
+    EXPECT_TRUE(std::isnan((*read)[0].decision));
 }
 
 TEST(SqueezedBytes, VectorsThatMoveAlikeTakeHalfTheirBytesAtMost) {

@@ -15,7 +15,7 @@ TrackEvidence vehicle() {
     TrackEvidence evidence;
     evidence.detected = 0.9;
     evidence.looked_alike = 0.3;
-    evidence.appearance = 5;
+    evidence.decision = 5;
     evidence.life_s = 3;
     evidence.flow_px = 1.5;
     evidence.flow_ratio = 1.2;
@@ -87,21 +87,21 @@ TEST(TrackScore, IsAProbabilityThatIsHighForAVehicle) {
 
 TEST(TrackScore, RisesWithWhatSpeaksForAVehicle) {
     EXPECT_GT(probabilityOf(vehicle()), probabilityOf(with(&TrackEvidence::detected, 0.4)));
-    EXPECT_GT(probabilityOf(vehicle()), probabilityOf(with(&TrackEvidence::appearance, 0)));
-    EXPECT_GT(probabilityOf(with(&TrackEvidence::appearance, 8)), probabilityOf(vehicle()));
+    EXPECT_GT(probabilityOf(vehicle()), probabilityOf(with(&TrackEvidence::decision, 0)));
+    EXPECT_GT(probabilityOf(with(&TrackEvidence::decision, 8)), probabilityOf(vehicle()));
     EXPECT_GT(probabilityOf(vehicle()), probabilityOf(with(&TrackEvidence::life_s, 0.3)));
     EXPECT_GT(probabilityOf(vehicle()), probabilityOf(with(&TrackEvidence::flow_ratio, 0.3)));
 }
 
 TEST(TrackScore, DoubtsWhatSticksToTheImageUnlessItLookedLikeAVehicle) {
     TrackEvidence sticks = vehicle();
-    sticks.appearance = -3;
+    sticks.decision = -3;
     sticks.detected = 0.5;
     sticks.flow_px = 5;
     sticks.flow_ratio = 1;
     sticks.alignment = -1;
     EXPECT_LT(probabilityOf(sticks), 0.25);
-    EXPECT_GT(probabilityOf(with(&TrackEvidence::appearance, 6, sticks)), 0.5) << "a car that the camera follows";
+    EXPECT_GT(probabilityOf(with(&TrackEvidence::decision, 6, sticks)), 0.5) << "a car that the camera follows";
     EXPECT_GT(probabilityOf(with(&TrackEvidence::alignment, 0, sticks)), probabilityOf(sticks));
     EXPECT_GT(probabilityOf(with(&TrackEvidence::flow_px, 0, sticks)), 2 * probabilityOf(sticks))
         << "a camera that hovers tells nothing";
@@ -173,11 +173,11 @@ TEST(TrackScore, DropsTheCloudAndKeepsTheCar) {
 TEST(TrackScore, IsTheSumOfWhatSpeaksForATrackAndAgainstIt) {
     TrackEvidence evidence = vehicle();
     for (const double detected : {0.2, 0.6, 1.0}) {
-        for (const double appearance : {-4.0, 8.0}) {
+        for (const double decision : {-4.0, 8.0}) {
             evidence.detected = detected;
-            evidence.appearance = appearance;
+            evidence.decision = decision;
             EXPECT_NEAR(1 / (1 + std::exp(-partsOf(evidence).sum())), probabilityOf(evidence), 1e-12);
-            EXPECT_EQ(partsOf(evidence).looks < 0, appearance < 0);
+            EXPECT_EQ(partsOf(evidence).looks < 0, decision < 0);
             EXPECT_EQ(partsOf(evidence).detected > 0.1, detected > 0.6);
         }
     }
@@ -195,8 +195,8 @@ TEST(TrackScore, TellsWhatSpokeForEachTrackAndKeepsTheDoubtfulOnes) {
     EXPECT_EQ(finished.evidence.size(), 2U);
     EXPECT_GT(finished.evidence.at(1).score, 0.9);
     EXPECT_GT(finished.evidence.at(1).looked_alike, 0.9);
-    EXPECT_EQ(finished.evidence.at(1).appearance, 6);
-    EXPECT_EQ(finished.evidence.at(2).appearance, -3);
+    EXPECT_EQ(finished.evidence.at(1).decision, 6);
+    EXPECT_EQ(finished.evidence.at(2).decision, -3);
     EXPECT_LT(finished.evidence.at(2).score, FinishingOptions().min_score);
     EXPECT_LT(finished.evidence.at(2).alignment, -0.9);
     int doubtful = 0;

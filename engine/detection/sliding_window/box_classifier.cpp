@@ -1,4 +1,4 @@
-#include "detection/sliding_window/vehicle_appearance.h"
+#include "detection/sliding_window/box_classifier.h"
 
 #include <algorithm>
 #include <array>
@@ -41,13 +41,13 @@ cv::Mat rescaledMiddle(const cv::Mat& patch, cv::Size2d extent, cv::Size windows
 
 }  // namespace
 
-VehicleAppearance::VehicleAppearance(VehicleModel model, const SlidingWindowOptions& options, const SceneScale& scale)
+BoxClassifier::BoxClassifier(VehicleModel model, const SlidingWindowOptions& options, const SceneScale& scale)
     : scanner_(std::move(model)),
       options_(options),
       scale_(scale),
       every_(std::max(1, static_cast<int>(std::lround(scale.frame_rate_hz / kLooksPerSecond)))) {}
 
-double VehicleAppearance::at(const cv::Mat& gray, const OrientedBox& box) const {
+double BoxClassifier::at(const cv::Mat& gray, const OrientedBox& box) const {
     const cv::Point centre(cvRound(box.centre.x), cvRound(box.centre.y));
     if (!cv::Rect({0, 0}, gray.size()).contains(centre)) return std::numeric_limits<double>::quiet_NaN();
     const SceneScale here = scale_.at(box.centre);
@@ -71,17 +71,17 @@ double VehicleAppearance::at(const cv::Mat& gray, const OrientedBox& box) const 
     return highest;
 }
 
-void VehicleAppearance::judge(std::vector<Detection>& detections, const Frame& frame) const {
+void BoxClassifier::judge(std::vector<Detection>& detections, const Frame& frame) const {
     if (!looksAt(frame.index)) return;
     cv::parallel_for_(cv::Range(0, static_cast<int>(detections.size())), [&](const cv::Range& range) {
         for (int i = range.start; i < range.end; ++i) {
             Detection& detection = detections[static_cast<std::size_t>(i)];
-            if (detection.rejection == Rejection::none) detection.appearance = at(frame.gray, detection.box);
+            if (detection.rejection == Rejection::none) detection.decision = at(frame.gray, detection.box);
         }
     });
 }
 
-VehicleAppearance makeVehicleAppearance(const SlidingWindowOptions& options, const SceneScale& scale) {
+BoxClassifier makeBoxClassifier(const SlidingWindowOptions& options, const SceneScale& scale) {
     return {loadModel(modelLocation(options.model)), options, scale};
 }
 

@@ -13,9 +13,9 @@ namespace eyrie {
 /// How much detections look like vehicles to the classifier, wherever their boxes come from. The search takes for
 /// vehicles only what it is sure of; over a track's life also what it half believes tells vehicles that are dark, hazy
 /// or seen from an unusual side from relief and noise. Immutable: may be used by several threads.
-class VehicleAppearance {
+class BoxClassifier {
  public:
-    VehicleAppearance(VehicleModel model, const SlidingWindowOptions& options, const SceneScale& scale);
+    BoxClassifier(VehicleModel model, const SlidingWindowOptions& options, const SceneScale& scale);
 
     /// The highest decision value of a window that is laid over the box in a CV_8UC1 image, 0 being the classifier's
     /// border. The window is fitted to a size between that of the box and that of a car; it is moved by a sixth of it
@@ -24,7 +24,7 @@ class VehicleAppearance {
 
     /// Whether it looks at this frame: at some four a second.
     bool looksAt(FrameIndex frame) const { return frame % every_ == 0; }
-    /// Gives the detections that were kept their appearance, in frames that it looks at.
+    /// Gives the detections that were kept their decision, in frames that it looks at.
     void judge(std::vector<Detection>& detections, const Frame& frame) const;
 
  private:
@@ -35,6 +35,6 @@ class VehicleAppearance {
 };
 
 /// With the model that the options name. Throws Error(input) when it is missing or damaged.
-VehicleAppearance makeVehicleAppearance(const SlidingWindowOptions& options, const SceneScale& scale);
+BoxClassifier makeBoxClassifier(const SlidingWindowOptions& options, const SceneScale& scale);
 
 }  // namespace eyrie
