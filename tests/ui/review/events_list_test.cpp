@@ -321,6 +321,38 @@ class EventsListTest : public QObject {
         QVERIFY(panel.headerText().contains(QStringLiteral("without an event")));
     }
 
+    void whatTheFilterLineHidesIsCountedAndWhenAllThatIsLeftIsJudgedItSaysSo() {
+        EventsModel model;
+        EventsPanel panel(&model, *actions_);
+        give(model, found(someEvents()));
+        panel.showCounts(0);
+        panel.setFilterText(QStringLiteral("turns"));
+        QCOMPARE(panel.headerText(), QStringLiteral("0 of 8 judged · 1 of 8 shown"));
+        QVERIFY(test::says(panel, QStringLiteral("1 of 8 shown")));
+        judge(model, 1, Judgement::relevant);
+        QCOMPARE(panel.headerText(), QStringLiteral("1 of 8 judged · 1 of 8 shown, all judged"));
+        panel.setFilterText(QString());
+        QCOMPARE(panel.headerText(), QStringLiteral("1 of 8 judged"));
+    }
+
+    void anotherFilterBeginsAtTheFirstRowThatIsLeft() {
+        std::vector<Event> events;
+        for (int i = 0; i < 60; ++i)
+            events.push_back(happening(i % 2 == 0 ? EventKind::stops : EventKind::starts, i + 1, i));
+        EventsModel model;
+        EventsPanel panel(&model, *actions_);
+        give(model, found(events));
+        panel.resize(400, 300);
+        panel.show();
+        panel.setFilterText(QStringLiteral("stops"));
+        panel.selectId(model.recordAt(58)->id);
+        QVERIFY(panel.table()->verticalScrollBar()->value() > 0);
+        panel.setFilterText(QStringLiteral("st"));  // has it still
+        QVERIFY(panel.table()->verticalScrollBar()->value() > 0);
+        panel.setFilterText(QStringLiteral("starts"));
+        QCOMPARE(panel.table()->verticalScrollBar()->value(), 0);
+    }
+
     void chipsOfTheTracksNarrowTheEventsAndWhatTheyHideIsCounted() {
         EventsModel model;
         EventsPanel panel(&model, *actions_);
@@ -492,6 +524,31 @@ class EventsListTest : public QObject {
         QVERIFY(QTest::qWaitFor([&] { return edited.count() == 1; }, test::kPatience_ms));
         QCOMPARE(edited.front().front().toInt(), id);
         QCOMPARE(edited.front().back().toString(), QStringLiteral("white van"));
+    }
+
+    void inANarrowListANoteIsWrittenInALineThatIsWideEnoughAndEnterOnlyEndsIt() {
+        EventsModel model;
+        EventsPanel panel(&model, *actions_);
+        give(model, found(someEvents()));
+        panel.resize(330, 400);
+        panel.show();
+        QTableView* table = panel.table();
+        const int id = model.recordAt(2)->id;
+        panel.selectId(id);
+        int shown = 0;
+        panel.setCommands({.show = [&](int) { ++shown; }});
+        QVERIFY2(table->horizontalScrollBar()->maximum() > 0, "otherwise this shows nothing");
+        panel.editNote(id);
+        auto* editor = table->viewport()->findChild<QLineEdit*>();
+        QVERIFY(editor != nullptr);
+        QVERIFY2(editor->width() >= 200, qPrintable(QString::number(editor->width())));
+        QVERIFY(table->viewport()->rect().contains(editor->geometry()));
+        QCOMPARE(table->horizontalScrollBar()->value(), 0);  // number and time stay in view
+        QSignalSpy edited(&model, &EventsModel::noteEdited);
+        QTest::keyClicks(editor, QStringLiteral("white van"));
+        QTest::keyClick(editor, Qt::Key_Return);
+        QVERIFY(QTest::qWaitFor([&] { return edited.count() == 1; }, test::kPatience_ms));
+        QCOMPARE(shown, 0);  // the video stays where it is
     }
 
     void limitsAreKeptAndShownWithTheirCounts() {
