@@ -33,6 +33,8 @@ struct Event {
     CrossingSense sense = CrossingSense::none;
 };
 
+/// What the figure of a kind counts, before the figure itself: "Speed before", "Stood", "Convoy of".
+const char* figureNameOf(EventKind kind);
 /// "43 km/h", "1.8 px/frame", "12.4 s"; empty without a figure.
 std::string figureText(const Event& event);
 

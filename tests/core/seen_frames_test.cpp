@@ -111,6 +111,19 @@ TEST(SeenFrames, AStillPictureCountsOnceItStays) {
     EXPECT_THAT(recorder.take(), ElementsAre(FrameSpan{400, 400}));
 }
 
+TEST(SeenFrames, GoingFromEventToEventIsNoPlaying) {
+    SeenRecorder recorder;
+    // Events a third of a second apart, each looked at for a second.
+    for (int i = 0; i < 5; ++i) recorder.show(10 * i, 10 * i / 30.0, 100 + i);
+    recorder.interrupt(105);
+    EXPECT_THAT(recorder.take(), ElementsAre(FrameSpan{0, 0}, FrameSpan{10, 10}, FrameSpan{20, 20}, FrameSpan{30, 30},
+                                             FrameSpan{40, 40}));
+    // Stepping is: each frame was looked at.
+    for (int i = 0; i < 5; ++i) recorder.show(100 - i, (100 - i) / 30.0, 200 + i);
+    recorder.interrupt(205);
+    EXPECT_THAT(recorder.take(), ElementsAre(FrameSpan{96, 100}));
+}
+
 TEST(SeenFrames, TheTimeBehindAnotherWindowConnectsNothing) {
     SeenRecorder recorder;
     recorder.show(10, 0.4, 10);

@@ -145,6 +145,8 @@ TEST_F(ReviewReport, TellsTheChosenEventsWithAllThatIsKnownOfThem) {
                 AllOf(HasSubstr("abc123"), HasSubstr("2026-11-22T09:00:00Z"), HasSubstr("the machine, run 1"),
                       HasSubstr("the start time given"), HasSubstr("motion.min_age"), HasSubstr("0.2 m/px, as given")));
     EXPECT_THAT(report.html, Not(HasSubstr("<h3>1. appears")));
+    EXPECT_THAT(report.html, HasSubstr("By kind</b></td><td>stops 1</td>"));
+    EXPECT_THAT(report.html, HasSubstr("Speed before</b></td><td>2")) << "one does not stop at 27 km/h";
     // It stops where xAt does: frame 227 at 25 Hz, 9 s and some after 22:08:22.
     EXPECT_THAT(report.html, HasSubstr("2009-01-12T22:08:3"));
     EXPECT_THAT(report.html, HasSubstr("km/h"));

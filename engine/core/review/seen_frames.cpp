@@ -53,16 +53,19 @@ bool SeenRecorder::measure(double wall_s) {
 }
 
 void SeenRecorder::show(FrameIndex frame, double video_s, double wall_s) {
-    const auto begin = [&] { stretch_ = Stretch{{frame, frame}, wall_s, 0, video_s}; };
+    const auto begin = [&] { stretch_ = Stretch{{frame, frame}, wall_s, 0, video_s, frame, wall_s}; };
     if (!stretch_) return begin();
     const double step = std::abs(video_s - stretch_->at_s);
-    if (step > kLongestStep_s) {
+    const bool stood = wall_s - stretch_->shown_s > kMeasured_s;
+    if (step > kLongestStep_s || (stood && std::abs(frame - stretch_->at) > 1)) {
         // The frame that was shown until now may have been looked at for long.
         measure(wall_s);
         return begin();
     }
     stretch_->way_s += step;
     stretch_->at_s = video_s;
+    stretch_->at = frame;
+    stretch_->shown_s = wall_s;
     stretch_->span = {std::min(stretch_->span.first, frame), std::max(stretch_->span.last, frame)};
     if (measure(wall_s)) begin();
 }

@@ -29,6 +29,8 @@ inline constexpr double kFastestSeen = 4;
 
 /// Tells from the frames that a window shows which of them were watched: frames between those that were shown count,
 /// too, where time in the video did not pass faster than kFastestSeen, measured over half a second, and did not leap.
+/// After a picture that stood for as long as that, only the next frame joins it: going from event to event is no
+/// playing.
 class SeenRecorder {
  public:
     /// A frame is shown at `video_s` in the video, at `wall_s` by a steady clock; not to be called while the window is
@@ -46,6 +48,8 @@ class SeenRecorder {
         double begun_s = 0;  ///< by the steady clock
         double way_s = 0;    ///< in the video, back and forth
         double at_s = 0;     ///< in the video, the newest frame
+        FrameIndex at = 0;   ///< the newest frame
+        double shown_s = 0;  ///< by the steady clock, when the newest frame came
     };
     /// Counts the stretch if it was slow; false while it is too short to tell.
     bool measure(double wall_s);

@@ -114,6 +114,16 @@ std::string chosenText(const EventChoice& choice) {
     return text;
 }
 
+/// "stops 26, stands 23, against the flow 1", in the order of kinds.
+std::string kindsText(const ReviewReportInput& input, const std::vector<std::size_t>& events) {
+    std::map<EventKind, int> counts;
+    for (const std::size_t i : events) ++counts[input.reviewed.events[i].kind];
+    std::string text;
+    for (const auto& [kind, count] : counts)
+        text += (text.empty() ? "" : ", ") + std::string(nameOf(kind)) + " " + std::to_string(count);
+    return text;
+}
+
 }  // namespace
 
 std::string judgeText(const Verdict& verdict) {
@@ -157,7 +167,9 @@ void tellReviewedVideo(ReportPage& page, const ReviewScene& scene) {
     fact("Tracks", input.choice.uncorrected ? "as the machine found them, corrections left out"
                    : corrections.empty()    ? "as the machine found them"
                                             : "as people corrected them: " + corrections);
-    fact("Reported here", std::to_string(countOfEvents(input)) + ": " + chosenText(input.choice));
+    const std::vector<std::size_t> told = chosenEvents(input);
+    fact("Reported here", std::to_string(told.size()) + ": " + chosenText(input.choice));
+    if (!told.empty()) fact("By kind", kindsText(input, told));
     if (!input.made_utc.empty()) fact("Report made", input.made_utc);
     page.endTable();
     tellDifferentParameters(page, input.parameters);

@@ -32,6 +32,9 @@ class ReviewScene {
     std::map<TrackId, const EventTrack*> tracks_;
 };
 
+/// The events that are told, as indices, in the order of time.
+std::vector<std::size_t> chosenEvents(const ReviewReportInput& input);
+
 /// Video, run, scale, registration, what was seen, parameters.
 void tellReviewedVideo(ReportPage& page, const ReviewScene& scene);
 /// Stretches that could not be searched, verdicts without an event, and bookmarks.

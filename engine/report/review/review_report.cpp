@@ -18,7 +18,7 @@
 namespace eyrie {
 namespace {
 
-constexpr double kStillWidth_mm = 100;
+constexpr double kStillWidth_mm = 92;  // two events share a page of A4
 constexpr double kSmallWidth_mm = 44;
 constexpr double kSpeedWidth_mm = 80;
 
@@ -79,7 +79,7 @@ std::string factsTable(const ReviewScene& scene, const Event& event, const Verdi
                        ? std::to_string(event.first_frame)
                        : std::to_string(event.first_frame) + "–" + std::to_string(event.last_frame));
     fact(event.tracks.size() == 1 ? "Track" : "Tracks", tracksText(event));
-    fact("Figure", figureText(event));
+    fact(figureNameOf(event.kind), figureText(event));
     fact("Speed", speedText(scene, event));
     fact("Place", placeText(scene, event));
     const auto corrected = correctionOf(event, scene.input().reviewed.tracks);
@@ -101,15 +101,6 @@ std::string factsTable(const ReviewScene& scene, const Event& event, const Verdi
     }
     table.endTable();
     return table.take();
-}
-
-/// The chosen events, in the order of time.
-std::vector<std::size_t> chosenEvents(const ReviewReportInput& input) {
-    std::vector<std::size_t> chosen;
-    for (std::size_t i = 0; i < input.reviewed.events.size(); ++i)
-        if (input.choice.wants(input.reviewed.events[i].kind, input.reviewed.verdictOn(i), static_cast<int>(i) + 1))
-            chosen.push_back(i);
-    return chosen;
 }
 
 std::string picture(const std::string& name) {
@@ -250,6 +241,14 @@ ReviewReportInput gatherReviewReport(ProjectFile& project, const RunRecord& run,
     input.places = std::move(video.places);
     if (video.metadata) input.scale_remark = remarkOnScale(run, video.metadata->timeline(), *pixels);
     return input;
+}
+
+std::vector<std::size_t> chosenEvents(const ReviewReportInput& input) {
+    std::vector<std::size_t> chosen;
+    for (std::size_t i = 0; i < input.reviewed.events.size(); ++i)
+        if (input.choice.wants(input.reviewed.events[i].kind, input.reviewed.verdictOn(i), static_cast<int>(i) + 1))
+            chosen.push_back(i);
+    return chosen;
 }
 
 std::size_t countOfEvents(const ReviewReportInput& input) {

@@ -1,4 +1,5 @@
 #include <QComboBox>
+#include <QScrollBar>
 #include <QTableView>
 #include <QTest>
 #include <functional>
@@ -38,6 +39,38 @@ class EventsFilterTest : public test::ListedEvents {
         QCOMPARE(kindsShown(panel), QStringList(QStringLiteral("Turns back")));
         panel.showCounts(2);
         QVERIFY(panel.headerText().contains(QStringLiteral("without an event")));
+    }
+
+    void whatTheFilterLineHidesIsCountedAndWhenAllThatIsLeftIsJudgedItSaysSo() {
+        EventsModel model;
+        EventsPanel panel(&model, *actions_);
+        give(model, found(someEvents()));
+        panel.showCounts(0);
+        panel.setFilterText(QStringLiteral("turns"));
+        QCOMPARE(panel.headerText(), QStringLiteral("0 of 8 judged · 1 of 8 shown"));
+        QVERIFY(test::says(panel, QStringLiteral("1 of 8 shown")));
+        judge(model, 1, Judgement::relevant);
+        QCOMPARE(panel.headerText(), QStringLiteral("1 of 8 judged · 1 of 8 shown, all judged"));
+        panel.setFilterText(QString());
+        QCOMPARE(panel.headerText(), QStringLiteral("1 of 8 judged"));
+    }
+
+    void anotherFilterBeginsAtTheFirstRowThatIsLeft() {
+        std::vector<Event> events;
+        for (int i = 0; i < 60; ++i)
+            events.push_back(happening(i % 2 == 0 ? EventKind::stops : EventKind::starts, i + 1, i));
+        EventsModel model;
+        EventsPanel panel(&model, *actions_);
+        give(model, found(events));
+        panel.resize(400, 300);
+        panel.show();
+        panel.setFilterText(QStringLiteral("stops"));
+        panel.selectId(model.recordAt(58)->id);
+        QVERIFY(panel.table()->verticalScrollBar()->value() > 0);
+        panel.setFilterText(QStringLiteral("st"));  // has it still
+        QVERIFY(panel.table()->verticalScrollBar()->value() > 0);
+        panel.setFilterText(QStringLiteral("starts"));
+        QCOMPARE(panel.table()->verticalScrollBar()->value(), 0);
     }
 
     void chipsOfTheTracksNarrowTheEventsAndWhatTheyHideIsCounted() {

@@ -330,6 +330,31 @@ class EventsListTest : public test::ListedEvents {
         QVERIFY2(model.texts < 20'000, qPrintable(QString::number(model.texts)));
         QCOMPARE(panel.headerText(), QStringLiteral("10 of 10000 judged"));
     }
+
+    void inANarrowListANoteIsWrittenInALineThatIsWideEnoughAndEnterOnlyEndsIt() {
+        EventsModel model;
+        EventsPanel panel(&model, *actions_);
+        give(model, found(someEvents()));
+        panel.resize(330, 400);
+        panel.show();
+        QTableView* table = panel.table();
+        const int id = model.recordAt(2)->id;
+        panel.selectId(id);
+        int shown = 0;
+        panel.setCommands({.show = [&](int) { ++shown; }});
+        QVERIFY2(table->horizontalScrollBar()->maximum() > 0, "otherwise this shows nothing");
+        panel.editNote(id);
+        auto* editor = table->viewport()->findChild<QLineEdit*>();
+        QVERIFY(editor != nullptr);
+        QVERIFY2(editor->width() >= 200, qPrintable(QString::number(editor->width())));
+        QVERIFY(table->viewport()->rect().contains(editor->geometry()));
+        QCOMPARE(table->horizontalScrollBar()->value(), 0);  // number and time stay in view
+        QSignalSpy edited(&model, &EventsModel::noteEdited);
+        QTest::keyClicks(editor, QStringLiteral("white van"));
+        QTest::keyClick(editor, Qt::Key_Return);
+        QVERIFY(QTest::qWaitFor([&] { return edited.count() == 1; }, test::kPatience_ms));
+        QCOMPARE(shown, 0);  // the video stays where it is
+    }
 };
 
 }  // namespace eyrie::ui::events_list_test

@@ -1,6 +1,7 @@
 #include <QClipboard>
 #include <QHeaderView>
 #include <QHelpEvent>
+#include <QLineEdit>
 #include <QPushButton>
 #include <QSignalSpy>
 #include <QSlider>
@@ -123,6 +124,35 @@ class TablesTest : public QObject {
         QCOMPARE(shown, std::vector<int>{2});
         QTest::keyClick(panel.table(), Qt::Key_Delete);
         QCOMPARE(removed, std::vector<int>{3});
+    }
+
+    void enterInTheFilterLineGoesToTheFirstRowThatIsLeft() {
+        TracksModel model;
+        TracksPanel panel(&model);
+        model.setTracks(several(5, sampleTrack), {});
+        panel.show();
+        std::vector<int> selected;
+        panel.setCommands({.select = [&](int track) { selected.push_back(track); }});
+        auto* filter = panel.findChild<QLineEdit*>();
+        filter->setFocus();
+        QTest::keyClicks(filter, QStringLiteral("5"));
+        QVERIFY(selected.empty());
+        QTest::keyClick(filter, Qt::Key_Return);
+        QCOMPARE(selected, std::vector<int>{5});
+        QCOMPARE(panel.currentId(), 5);
+        QCOMPARE(panel.focusWidget(), panel.table());  // letters judge again, and are not typed
+        // What is selected stays so.
+        filter->clear();
+        filter->setFocus();
+        QTest::keyClick(filter, Qt::Key_Down);
+        QCOMPARE(panel.currentId(), 5);
+        QCOMPARE(selected.size(), std::size_t(1));
+        QCOMPARE(panel.focusWidget(), panel.table());
+        // With nothing to go to one goes on writing.
+        panel.setFilterText(QStringLiteral("nowhere"));
+        filter->setFocus();
+        QTest::keyClick(filter, Qt::Key_Return);
+        QCOMPARE(panel.focusWidget(), filter);
     }
 
     void clickingATrackGoesToIt() {

@@ -63,8 +63,8 @@ std::optional<CardSubject> CardDock::subjectOf(int id) const {
     if (event != nullptr)
         words << (event->tracks.size() == 1 ? tr("track %1") : tr("tracks %1"))
                      .arg(eventTracksText(*found, entry->position));
-    const QString figure = eventFigureText(*found, entry->position);
-    if (!figure.isEmpty()) words << figure;
+    QString figure = countedFigureText(*found, entry->position);
+    if (!figure.isEmpty()) words << figure.replace(0, 1, figure.at(0).toLower());
     CardSubject subject;
     subject.title = words.join(QStringLiteral(" · "));
     subject.event = id;

@@ -103,6 +103,13 @@ QString eventFigureText(const FoundEvents& found, std::size_t position) {
     return durationText(secondsOf(found, found.framesAt(position)));
 }
 
+QString countedFigureText(const FoundEvents& found, std::size_t position) {
+    const QString figure = eventFigureText(found, position);
+    const Event* event = found.eventAt(position);
+    if (event == nullptr || figure.isEmpty()) return figure;
+    return QString::fromLatin1(figureNameOf(event->kind)) + QLatin1Char(' ') + figure;
+}
+
 std::optional<double> eventSeconds(const FoundEvents& found, std::size_t position) {
     const FrameSpan frames = found.framesAt(position);
     if (found.eventAt(position) != nullptr && frames.first == frames.last) return std::nullopt;
@@ -130,6 +137,8 @@ QString eventTipText(const FoundEvents& found, std::size_t position) {
         return text + QLatin1Char('\n') +
                eventWord(QT_TRANSLATE_NOOP(
                    "Events", "The camera's motion is unknown here, so no event is found. Look for yourself."));
+    const QString figure = countedFigureText(found, position);
+    if (!figure.isEmpty()) text += QLatin1Char('\n') + figure;
     return text + QLatin1Char('\n') +
            eventWord(QT_TRANSLATE_NOOP("Events", "Place in the queue: %1"))
                .arg(QString::fromLatin1(nameOf(found.queue.at(position).group)));

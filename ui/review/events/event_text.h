@@ -25,6 +25,8 @@ QString eventClockText(const FoundEvents& found, std::size_t position);
 QString eventTracksText(const FoundEvents& found, std::size_t position);
 /// "43 km/h"; of what has no figure, how long it lasts.
 QString eventFigureText(const FoundEvents& found, std::size_t position);
+/// "Speed before 43 km/h", what the figure counts as well; empty without one.
+QString countedFigureText(const FoundEvents& found, std::size_t position);
 /// How long it lasts, s; nothing for what happens in a moment.
 std::optional<double> eventSeconds(const FoundEvents& found, std::size_t position);
 /// The lowest or the highest speed while it lasts, in the unit of speedUnit() of the run's scale; nothing where that is

@@ -7,10 +7,12 @@
 #include <QLabel>
 #include <QLocale>
 #include <QMenu>
+#include <QScrollBar>
 #include <QTableView>
 #include <QToolButton>
 #include <QVBoxLayout>
 
+#include "review/events/event_cells.h"
 #include "review/events/event_thresholds.h"
 #include "review/tracks/track_query.h"
 #include "widgets/layout/flow_layout.h"
@@ -49,6 +51,7 @@ EventsPanel::EventsPanel(EventsModel* model, const WindowActions& actions, QWidg
       verdicts_(new QComboBox(this)),
       thresholds_(new EventThresholds(this)) {
     table()->setAccessibleName(tr("Events"));
+    table()->setItemDelegate(new EventCells(table()));
     events_->setDark(isDark(palette()));
     header_->setContentsMargins(4, 2, 4, 0);
     header_->setTextFormat(Qt::RichText);
@@ -65,6 +68,7 @@ EventsPanel::EventsPanel(EventsModel* model, const WindowActions& actions, QWidg
     buildButtons();
     rows->addWidget(thresholds_, 3);
     thresholds_->hide();
+    whenAny(&proxy(), this, &EventsPanel::showHeader, &TableSortProxy::filtered);
     filterEvents();
 }
 
@@ -185,7 +189,6 @@ void EventsPanel::filterEvents() {
         const EventEntry* entry = events_->recordAt(row);
         return entry != nullptr && isListed(*entry);
     });
-    showHeader();
     commands_.listing_changed();
 }
 
@@ -234,16 +237,13 @@ void EventsPanel::showAsOf(std::optional<FrameIndex> frame) {
 
 QString EventsPanel::countedText() const {
     const int all = events_->rowCount();
+    const int listed = table()->model()->rowCount();
     int judged = 0;
-    int listed = 0;
     int hidden_by_query = 0;
     for (int row = 0; row < all; ++row) {
         const EventEntry& entry = *events_->recordAt(row);
         judged += entry.judgement != Judgement::open ? 1 : 0;
-        if (!isWanted(entry)) continue;
-        const bool passes = passesQuery(entry);
-        listed += passes ? 1 : 0;
-        hidden_by_query += passes ? 0 : 1;
+        hidden_by_query += isWanted(entry) && !passesQuery(entry) ? 1 : 0;
     }
     if (all == 0 && !as_of_) return {};
     QString text;
@@ -255,6 +255,7 @@ QString EventsPanel::countedText() const {
         if (seen_) text += tr(" · %1 % of the time seen").arg(static_cast<int>(100 * *seen_));
     }
     if (listed < all) text += tr(" · %1 of %2 shown").arg(listed).arg(all);
+    if (listed > 0 && listed < all && judged < all && !nextOpen({})) text += tr(", all judged");
     if (hidden_by_query > 0) text += tr(" · %1 hidden by the filter on tracks").arg(hidden_by_query);
     return text;
 }
@@ -342,7 +343,11 @@ void EventsPanel::editNote(int id) {
     if (row < 0) return;
     table()->setColumnHidden(EventsModel::note_column, false);
     const QModelIndex note = table()->model()->index(row, EventsModel::note_column);
+    // Not sideways: the line to write in comes into view by itself, and the row stays to be read.
+    QScrollBar* sideways = table()->horizontalScrollBar();
+    const int place = sideways->value();
     table()->scrollTo(note);
+    sideways->setValue(place);
     table()->edit(note);
 }
 

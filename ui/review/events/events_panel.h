@@ -60,8 +60,8 @@ class EventsPanel : public TablePanel {
     void showAsOf(std::optional<FrameIndex> frame);
     /// The share of the run's frames that was watched, 0 … 1; nothing: not known.
     void showSeen(std::optional<double> share);
-    /// "214 of 380 judged", "61 % of the time seen", "38 of 380 shown", "12 hidden by the filter on tracks" and what
-    /// could not be carried over; "as of frame 1,234" of a run that works still.
+    /// "214 of 380 judged", "61 % of the time seen", "38 of 380 shown, all judged", "12 hidden by the filter on tracks"
+    /// and what could not be carried over; "as of frame 1,234" of a run that works still.
     QString headerText() const;
     /// Whether an event is listed by kind, verdict and the query; words in the filter line are not asked.
     bool isListed(const EventEntry& entry) const;

@@ -50,6 +50,7 @@ TablePanel::TablePanel(QAbstractItemModel* model, const QString& settings_key, Q
     filter_->setPlaceholderText(tr("Filter"));
     filter_->setClearButtonEnabled(true);
     filter_->setAccessibleName(tr("Show only rows with these words"));
+    filter_->installEventFilter(this);
     onEdited(
         this, [this] { setFilterText(filter_->text()); }, filter_);
     bindCommands(this, {{nothing_found_->button(), [this] {
@@ -275,6 +276,18 @@ void TablePanel::setFilterText(const QString& text) {
     }
     proxy_->setFilterText(text);
     keepSelection();
+    // While one writes the list was where the selected row was; without it there, one begins at the first.
+    if (currentId() == 0) table_->scrollToTop();
+}
+
+void TablePanel::goToRows() {
+    if (proxy_->rowCount() == 0) return;
+    if (currentId() == 0) {
+        const int first = idOf(proxy_->index(0, 0));
+        selectId(first);
+        rowSelected(first);
+    }
+    table_->setFocus();
 }
 
 QList<int> TablePanel::shownColumns() const {
@@ -317,14 +330,21 @@ bool TablePanel::eventFilter(QObject* watched, QEvent* event) {
         const auto* help = static_cast<QHelpEvent*>(event);
         return showToolTip(help->pos(), help->globalPos());
     }
-    if (watched != table_ || event->type() != QEvent::KeyPress) return QWidget::eventFilter(watched, event);
+    if ((watched != table_ && watched != filter_) || event->type() != QEvent::KeyPress)
+        return QWidget::eventFilter(watched, event);
     const auto* key = static_cast<QKeyEvent*>(event);
+    const bool enter = key->key() == Qt::Key_Return || key->key() == Qt::Key_Enter;
+    if (watched == filter_) {
+        if (enter || key->key() == Qt::Key_Down) goToRows();
+        return enter || key->key() == Qt::Key_Down;
+    }
     if (key->matches(QKeySequence::Copy)) {
         QApplication::clipboard()->setText(selectedText());
         return true;
     }
-    const bool enter = key->key() == Qt::Key_Return || key->key() == Qt::Key_Enter;
-    if (enter && currentId() != 0) {
+    // One that ends the writing of a cell comes here as well.
+    const QWidget* writing = window()->focusWidget();
+    if (enter && currentId() != 0 && !table_->viewport()->isAncestorOf(writing)) {
         rowDoubleClicked(currentId());
         return true;
     }

@@ -80,6 +80,8 @@ class TablePanel : public QWidget {
     void showRowMenu(const QPoint& place);
     void showTableOrEmptyState();
     void keepSelection();
+    /// From the filter line to the row that is selected, or the first one: letters are keys again there.
+    void goToRows();
     void fitColumns();
     /// Columns whose width nobody chose grow with what they hold; none gets narrower.
     void widenColumns();

@@ -1,6 +1,8 @@
 #include "window/docks/event_report.h"
 
+#include <QDesktopServices>
 #include <QFileInfo>
+#include <QUrl>
 
 #include "core/error.h"
 #include "core/utc_time.h"
@@ -38,8 +40,10 @@ EventReport::EventReport(const EventReportParts& parts)
           .show_progress = [this](double share) { showWriting(share); },
           .tell_written =
               [this](const std::filesystem::path& path) {
-                  parts_.messages.showTopic(kReportTopic, MessageKind::info,
-                                            tr("Wrote the report %1.").arg(QString::fromStdString(path.string())));
+                  const QString file = QString::fromStdString(path.string());
+                  parts_.messages.showTopic(kReportTopic, MessageKind::info, tr("Wrote the report %1.").arg(file),
+                                            tr("Open"),
+                                            [file] { QDesktopServices::openUrl(QUrl::fromLocalFile(file)); });
               },
           .fail =
               [this](const QString& message) { parts_.messages.showTopic(kReportTopic, MessageKind::error, message); },

@@ -22,6 +22,7 @@
 #include "core/utc_time.h"
 #include "io/atomic_file.h"
 #include "io/output_files.h"
+#include "window/docks/report_pages.h"
 
 namespace eyrie::ui {
 
@@ -60,6 +61,7 @@ void print(QTextDocument& document, QPdfWriter& writer, const QString& title) {
     const QSizeF page(writer.width(), writer.height() - footer);
     document.setDocumentMargin(0);
     document.setPageSize(page);
+    keepTogether(document, page.height());
     QFont small = document.defaultFont();
     small.setPointSizeF(7);
     QPainter painter(&writer);
