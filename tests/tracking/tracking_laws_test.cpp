@@ -173,14 +173,14 @@ const Seen& street() {
 
 /// px by which a place may differ: vectors are floats, pictures are sampled to a thirty-second of a pixel.
 double toleranceOf(const TrackerOptions& options) {
-    return options.decision == AppearanceUse::none ? 0.003 : 0.2;
+    return options.appearance == AppearanceUse::none ? 0.003 : 0.2;
 }
 
 std::vector<TrackerOptions> kindsOfTracking() {
     TrackerOptions by_look;
-    by_look.decision = AppearanceUse::lost;
+    by_look.appearance = AppearanceUse::lost;
     TrackerOptions blind;
-    blind.decision = AppearanceUse::none;
+    blind.appearance = AppearanceUse::none;
     TrackerOptions whole = blind;
     whole.adapt_size = false;
     whole.visible_overlap = false;
