@@ -60,29 +60,30 @@ TEST(DetectionProbability, IsTheLogisticSumOfWhatWasLearned) {
         detection.velocity = velocity;
         return probabilityOf(detection);
     };
-    // −4.349 + .553 + .184 · 1.2 + 2.469 · 1.9459 − 3.29 · 1.0986 + 2.292 · 1.0986 · 1.5 + .881 · 1.0986 = 2.3597
-    EXPECT_NEAR(withOf(true, 1.2, {0, 4}), 0.9137, 1e-4) << "beyond 1.5 a ratio tells nothing more";
-    // Without .553, .184 · 1.2 and the last, but −.559 · 1.2, 1.352 · 1.0986 and a ratio of .7317: −.5020
-    EXPECT_NEAR(withOf(false, 1.2, {-1.5, 0}), 0.3771, 1e-4) << "against the flow";
-    EXPECT_NEAR(withOf(false, 1.2, {-0.75, 0.75 * std::sqrt(3)}), 0.2236, 1e-4) << "half against it";
-    EXPECT_NEAR(withOf(false, 1.2, {-2.5, 0}), 0.3189, 1e-4) << "too fast to be a thing that stands";
+    // −4.776 + 1.027 + .342 · 1.2 + 2.203 · 1.9459 − 1.546 · 1.0986 + 1.394 · 1.0986 · 1.5 + 2.137 · 1.0986 = 3.8947
+    EXPECT_NEAR(withOf(true, 1.2, {0, 4}), 0.9801, 1e-4) << "beyond 1.5 a ratio tells nothing more";
+    // Without 1.027, .342 · 1.2 and the last, but −.127 · 1.2, .867 · 1.0986 and a ratio of .7317: −.2669
+    EXPECT_NEAR(withOf(false, 1.2, {-1.5, 0}), 0.4337, 1e-4) << "against the flow";
+    EXPECT_NEAR(withOf(false, 1.2, {-0.75, 0.75 * std::sqrt(3)}), 0.3223, 1e-4) << "half against it";
+    EXPECT_NEAR(withOf(false, 1.2, {-2.5, 0}), 0.3841, 1e-4) << "too fast to be a thing that stands";
     EXPECT_NEAR(withOf(true, 9, {0, 4}), withOf(true, 3, {0, 4}), 1e-12);
     EXPECT_NEAR(withOf(false, 9, {0, 4}), withOf(false, 3, {0, 4}), 1e-12);
     EXPECT_NEAR(withOf(true, -2, {0, 4}), withOf(true, 0, {0, 4}), 1e-12);
-    // 6 px of flow count as 4; a ratio of 4 / 6.05: −3.29, 2.292 · .6612 and .881 times 1.6094, a decision of 3: .1222
+    // 6 px of flow count as 4; a ratio of 4 / 6.05: −1.546, 1.394 · .6612 and 2.137 times 1.6094, a decision of
+    // 3: 3.9984
     FrameMotion fast = flyingMotion();
     fast.registration.current_from_previous.matrix(0, 2) = 6;
     std::vector<Detection> one{vehicleAtWork()};
     one[0].score = 5;
     judgeDetections(one, fast);
-    EXPECT_NEAR(one[0].probability, 0.5305, 1e-4);
-    // Under a camera that stands nothing is told by motion: −4.349 − .559 + 2.469 · 1.9459 = −.1035
+    EXPECT_NEAR(one[0].probability, 0.9820, 1e-4);
+    // Under a camera that stands nothing is told by motion: −4.776 − .127 + 2.203 · 1.9459 = −.6162
     fast.registration.current_from_previous.matrix(0, 2) = 0;
     one = {vehicleAtWork()};
     one[0].complete = false;
     one[0].score = 1;
     judgeDetections(one, fast);
-    EXPECT_NEAR(one[0].probability, 0.4741, 1e-4);
+    EXPECT_NEAR(one[0].probability, 0.3507, 1e-4);
 }
 
 TEST(DetectionProbability, WhatWasRejectedHasNone) {

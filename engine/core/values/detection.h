@@ -31,7 +31,7 @@ struct Detection {
     /// That it is a vehicle that moves, 0 … 1; NaN where it was not judged: rejected, or no classifier takes part.
     double probability = std::numeric_limits<double>::quiet_NaN();
     /// How much it looks like a vehicle to the classifier: the decision value of a window laid over the box, above 0
-    /// for vehicles. NaN where nobody looked: rejected, no classifier takes part, or another frame of the second.
+    /// for vehicles. NaN where nobody looked: rejected, no classifier takes part, or not one of the frames it looks at.
     double decision = std::numeric_limits<double>::quiet_NaN();
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/values/classified_box.h"
+#include "core/evidence/classified_box.h"
 #include "store/runs/packed_arrays.h"
 
 namespace eyrie {

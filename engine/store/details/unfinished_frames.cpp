@@ -1,6 +1,6 @@
 #include "store/details/unfinished_frames.h"
 
-#include "core/values/classified_box.h"
+#include "core/evidence/classified_box.h"
 #include "store/database/rows.h"
 #include "store/details/squeezed_bytes.h"
 

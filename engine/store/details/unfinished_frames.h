@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/values/classified_box.h"
+#include "core/evidence/classified_box.h"
 #include "core/values/frame_result.h"
 
 namespace SQLite {

@@ -8,14 +8,14 @@
 #include <utility>
 #include <vector>
 
+#include "core/evidence/classified_box.h"
+#include "core/evidence/track_evidence.h"
 #include "core/labels/box_record.h"
 #include "core/labels/track_class.h"
 #include "core/review/track_correction.h"
-#include "core/values/classified_box.h"
 #include "core/values/frame_result.h"
 #include "core/values/scale_basis.h"
 #include "core/values/scene_scale.h"
-#include "core/values/track_evidence.h"
 #include "store/project/project_file.h"
 
 namespace eyrie {
@@ -140,7 +140,7 @@ class RunStore {
     std::optional<FrameResult> frameResult(int run_id, FrameIndex frame) const;
     /// Its motion vectors alone, by ascending id; none when the run has no such frame.
     std::vector<MotionVector> motionVectors(int run_id, FrameIndex frame) const;
-    /// Boxes of its kept detections that a classifier took for whole vehicles.
+    /// Its kept detections of which the classifier says something; none when the run has no such frame.
     std::vector<ClassifiedBox> classifiedBoxes(int run_id, FrameIndex frame) const;
     std::vector<TrackSummary> tracks(int run_id) const;                    ///< ascending id
     TrackId lastTrackId(int run_id) const;                                 ///< the highest; 0 without tracks
@@ -170,8 +170,8 @@ class RunStore {
     void restore(int run_id);
     /// The run that was removed last, to the second; of several the newest run.
     std::optional<RunRecord> lastRemoved() const;
-    /// Deletes what was removed, for good. Its space goes back to the disk for a few seconds at most, since it is called
-    /// where a project is closed; the rest is used again, or given back when a run ends.
+    /// Deletes what was removed, for good. Its space goes back to the disk for a few seconds at most, since it is
+    /// called where a project is closed; the rest is used again, or given back when a run ends.
     void purgeRemoved();
 
  private:

@@ -9,15 +9,15 @@
 #include <utility>
 #include <vector>
 
+#include "core/evidence/classified_box.h"
+#include "core/evidence/track_evidence.h"
 #include "core/parameter.h"
-#include "core/values/classified_box.h"
 #include "core/values/corner.h"
 #include "core/values/detection.h"
 #include "core/values/dropped_state.h"
 #include "core/values/ids.h"
 #include "core/values/motion_vector.h"
 #include "core/values/scene_scale.h"
-#include "core/values/track_evidence.h"
 #include "core/values/track_state.h"
 
 namespace eyrie {

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "core/values/track_evidence.h"
+#include "core/evidence/track_evidence.h"
 #include "tracking/finishing/flow_comparison.h"
 #include "tracking/finishing/vehicle_looks.h"
 #include "tracking/ground_motion.h"

@@ -19,7 +19,7 @@ struct TrackLooks {
     double decision() const;
 };
 
-/// Of tracks that the classifier says nothing of there is nothing.
+/// Tracks may be missing of which the classifier says nothing.
 using VehicleLooks = std::map<TrackId, TrackLooks>;
 
 /// Asks for each frame once.

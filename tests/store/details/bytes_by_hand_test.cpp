@@ -59,7 +59,7 @@ TEST(BytesByHand, SqueezedOnesSayHowManyTheyWereAndInWhatRecords) {
     EXPECT_EQ(at<std::uint8_t>(bytes, 5), 28);
     EXPECT_TRUE(unsqueezed(bytes, 56));
     EXPECT_FALSE(unsqueezed(bytes, 55)) << "more than may be";
-    EXPECT_EQ(at<std::uint8_t>(squeezeBoxes(std::vector<OrientedBox>(1)), 5), 40);
+    EXPECT_EQ(at<std::uint8_t>(squeezeBoxes(std::vector<ClassifiedBox>(1)), 5), 56);
 }
 
 Keyframe keyframe() {

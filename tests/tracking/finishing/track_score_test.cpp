@@ -103,7 +103,8 @@ TEST(TrackScore, DoubtsWhatSticksToTheImageUnlessItLookedLikeAVehicle) {
     EXPECT_LT(probabilityOf(sticks), 0.25);
     EXPECT_GT(probabilityOf(with(&TrackEvidence::decision, 6, sticks)), 0.5) << "a car that the camera follows";
     EXPECT_GT(probabilityOf(with(&TrackEvidence::alignment, 0, sticks)), probabilityOf(sticks));
-    EXPECT_GT(probabilityOf(with(&TrackEvidence::flow_px, 0, sticks)), 2 * probabilityOf(sticks))
+    const TrackEvidence hovering = with(&TrackEvidence::flow_px, 0, sticks);
+    EXPECT_EQ(probabilityOf(with(&TrackEvidence::alignment, 1, hovering)), probabilityOf(hovering))
         << "a camera that hovers tells nothing";
 }
 

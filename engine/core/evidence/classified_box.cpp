@@ -1,4 +1,4 @@
-#include "core/values/classified_box.h"
+#include "core/evidence/classified_box.h"
 
 #include <cmath>
 
