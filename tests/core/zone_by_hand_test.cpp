@@ -13,6 +13,10 @@ namespace {
 
 using Points = std::vector<cv::Point2d>;
 
+constexpr const char* kNoLength = "the line has no length: draw its points apart";
+constexpr const char* kNoArea = "the zone has no area: its corners must not be on one line";
+constexpr const char* kCrosses = "the outline crosses itself: give its corners in their order around the area";
+
 std::string fault(ZoneShape shape, Points points) {
     Zone zone;
     zone.shape = shape;
@@ -22,16 +26,16 @@ std::string fault(ZoneShape shape, Points points) {
 
 TEST(ZoneByHand, ALineIsAPixelLongAtLeastAlongAllOfIt) {
     EXPECT_EQ(fault(ZoneShape::line, {{0, 0}, {0, 1}}), "");
-    EXPECT_EQ(fault(ZoneShape::line, {{0, 0}, {0.99, 0}}), "the line has no length");
+    EXPECT_EQ(fault(ZoneShape::line, {{0, 0}, {0.99, 0}}), kNoLength);
     EXPECT_EQ(fault(ZoneShape::line, {{0, 0}, {0, 0.4}, {0.4, 0.4}, {0.4, 0}}), "") << "there and back";
-    EXPECT_EQ(fault(ZoneShape::line, {{0, 0}, {0, 0.4}, {0.4, 0.4}}), "the line has no length");
+    EXPECT_EQ(fault(ZoneShape::line, {{0, 0}, {0, 0.4}, {0.4, 0.4}}), kNoLength);
 }
 
 TEST(ZoneByHand, AnAreaHasASquarePixelAtLeast) {
     EXPECT_EQ(fault(ZoneShape::area, {{0, 0}, {2, 0}, {2, 1}}), "");
-    EXPECT_EQ(fault(ZoneShape::area, {{0, 0}, {2, 0}, {2, 0.9}}), "the zone has no area");
+    EXPECT_EQ(fault(ZoneShape::area, {{0, 0}, {2, 0}, {2, 0.9}}), kNoArea);
     EXPECT_EQ(fault(ZoneShape::area, {{0, 0}, {0, 1}, {1, 1}, {1, 0}}), "") << "either way round";
-    EXPECT_EQ(fault(ZoneShape::area, {{0, 0}, {0, 0.9}, {1, 0.9}, {1, 0}}), "the zone has no area");
+    EXPECT_EQ(fault(ZoneShape::area, {{0, 0}, {0, 0.9}, {1, 0.9}, {1, 0}}), kNoArea);
 }
 
 TEST(ZoneByHand, EveryPointHasAPlace) {
@@ -51,7 +55,7 @@ TEST(ZoneByHand, AnOutlineMayTurnBackAndTouchItselfButNotCross) {
     // An edge to the last corner and the one from it cross the first.
     Points crossing{{0, 0}, {10, 0}, {10, 10}, {5, -5}, {0, 10}};
     for (int turn = 0; turn < 5; ++turn) {
-        EXPECT_EQ(fault(ZoneShape::area, crossing), "the outline crosses itself") << turn;
+        EXPECT_EQ(fault(ZoneShape::area, crossing), kCrosses) << turn;
         std::rotate(crossing.begin(), crossing.begin() + 1, crossing.end());
     }
 }
