@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kHardly = 0.1;        ///< log-odds that speak neither way
 constexpr double kStillCamera = 0.05;  ///< px/frame
+constexpr double kSameProbability = 0.005;
 
 std::string percentText(double share) {
     return std::to_string(std::lround(100 * share)) + " %";
@@ -49,7 +50,7 @@ std::string looksText(const TrackEvidence& evidence) {
     const std::string whole = evidence.looked_alike > 0 ? "it was found as a whole vehicle in " +
                                                               percentText(evidence.looked_alike) + " of its detections"
                                                         : std::string("it was never found as a whole vehicle");
-    if (std::isnan(evidence.decision)) return "nobody asked the classifier for its boxes; " + whole;
+    if (std::isnan(evidence.decision)) return "the classifier was never asked about its boxes; " + whole;
     return "the classifier gives its boxes " + signedText(evidence.decision) +
            " on average, where vehicles lie above 0; " + whole;
 }
@@ -69,8 +70,12 @@ void tellScore(Story& story, TrackId track, StepVerdict fate) {
     tellPart(story, "it was detected in " + percentText(evidence.detected) + " of its frames", parts.detected);
     tellPart(story, "it was followed for " + numberText(evidence.life_s) + " s", parts.life);
     tellPart(story, motionText(story, evidence), parts.motion);
-    story.note("score", "together " + signedText(parts.sum()) + ", which is a probability of " +
-                            numberText(evidence.score) + " (1 / (1 + exp(−sum)))");
+    const double by_sum = probabilityOf(evidence);
+    // What a run of an earlier version knows of its tracks was weighed otherwise then.
+    const bool as_then = std::abs(by_sum - evidence.score) < kSameProbability;
+    story.note("score", "together " + signedText(parts.sum()) + ", which is a probability of " + numberText(by_sum) +
+                            " (1 / (1 + exp(−sum)))" +
+                            (as_then ? "" : "; the version of Eyrie that made the run weighed this differently"));
 }
 
 }  // namespace eyrie::explaining

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tracking/finishing/track_score.h"
+
 namespace eyrie::explanation_test {
 namespace {
 
@@ -427,6 +429,10 @@ TEST(Explanation, whatSpeaksForATrackAndAgainstItIsTold) {
     EXPECT_THAT(stepWith("found as a whole vehicle in 25 % of its detections").text, HasSubstr("speaks for a moving"));
     EXPECT_THAT(stepWith("detected in 90 % of its frames").text, HasSubstr("speaks for a moving"));
     EXPECT_THAT(stepWith("0.2 times as fast as the ground").text, HasSubstr("speaks against it, −"));
+    evidence.judged[7].score = 0.5;
+    EXPECT_THAT(stepWith("which is a probability of").text, HasSubstr("that made the run weighed this differently"));
+    evidence.judged[7].score = probabilityOf(judged);
+    EXPECT_THAT(stepWith("which is a probability of").text, testing::EndsWith("(1 / (1 + exp(−sum)))"));
     EXPECT_FALSE(stepWith("a standing thing would have to be 0.165 of the flight height tall").text.empty());
 
     evidence.result.tracks.clear();
