@@ -65,7 +65,7 @@ class HinderedRun {
             result.tracks.clear();
         }
         const FoundInFrames found{[this](FrameIndex frame) { return results_.at(frame).motion.motion_vectors; },
-                                  [](FrameIndex) { return std::vector<OrientedBox>{}; }};
+                                  [](FrameIndex) { return std::vector<ClassifiedBox>{}; }};
         std::vector<TimedDrop> dropped;
         for (const auto& [frame, state] : finishTracks(states, motion, options_.finishing, scale_, found, &dropped))
             results_[frame].tracks.push_back(state);

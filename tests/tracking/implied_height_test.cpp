@@ -88,7 +88,8 @@ struct Circling {
         std::vector<TimedState> states;
         for (FrameIndex frame = 0; frame < kFrames; ++frame) states.emplace_back(frame, stateAt(from, step, frame));
         const auto vehicles_at = [&](FrameIndex frame) {
-            return looks ? std::vector<OrientedBox>{stateAt(from, step, frame).box} : std::vector<OrientedBox>{};
+            return looks ? std::vector<ClassifiedBox>{{stateAt(from, step, frame).box, true}}
+                         : std::vector<ClassifiedBox>{};
         };
         std::vector<TimedDrop> drops;
         if (!finishTracks(states, motion(), options, kScale, {{}, vehicles_at}, &drops).empty()) return std::nullopt;

@@ -47,7 +47,7 @@ class MetadataWindowTest : public QObject {
         return window;
     }
     static QString cell(const MainWindow& window, const QString& name, int column = MetadataModel::value_column) {
-        const MetadataModel& model = const_cast<MainWindow&>(window).earth().metadata().model();
+        const MetadataModel& model = const_cast<MainWindow&>(window).watching().earth().metadata().model();
         for (int row = 0; row < model.rowCount(); ++row)
             if (model.index(row, MetadataModel::name_column).data().toString() == name)
                 return model.index(row, column).data().toString();

@@ -94,16 +94,16 @@ class WatchingTest : public QObject {
         actions().steady->setChecked(false);
         actions().follow_object->setChecked(false);
         actions().only_moving->setChecked(false);
-        window().watching().measureTool().end();
+        window().watching().commands().measureTool().end();
         window().session().selectTrack(std::nullopt);
     }
 
     void theGroundStandsStillUntilItIsSwitchedOff() {
         QTest::keyClick(&canvas(), Qt::Key_G, Qt::ShiftModifier);
         QVERIFY(actions().steady->isChecked());
-        QTRY_VERIFY_WITH_TIMEOUT(window().ground().sheets() != nullptr, kPatience_ms);
+        QTRY_VERIFY_WITH_TIMEOUT(window().watching().ground().sheets() != nullptr, kPatience_ms);
         QVERIFY(canvas().transform().onGround());
-        QCOMPARE(window().ground().sheets()->anchor(), kAnchor);
+        QCOMPARE(window().watching().ground().sheets()->anchor(), kAnchor);
         const QPointF before = inView(standing(kAnchor));
         const double px = canvas().transform().scale();
         QVERIFY(goTo(kLater));
@@ -128,7 +128,7 @@ class WatchingTest : public QObject {
     }
 
     void aFollowedVehicleIsInTheMiddleWithItsHeadingUp() {
-        const auto& tracks = window().ground().ground()->run->tracks;
+        const auto& tracks = window().watching().ground().ground()->run->tracks;
         QVERIFY(!tracks.empty());
         const EventTrack& track = tracks.front();
         window().session().selectTrack(track.id);
@@ -138,10 +138,11 @@ class WatchingTest : public QObject {
         QVERIFY(canvas().transform().scale() > before);  // near enough to be seen
         for (const bool steady : {false, true}) {
             actions().steady->setChecked(steady);
-            if (steady) QTRY_VERIFY_WITH_TIMEOUT(window().ground().sheets() != nullptr, kPatience_ms);
+            if (steady) QTRY_VERIFY_WITH_TIMEOUT(window().watching().ground().sheets() != nullptr, kPatience_ms);
             for (const FrameIndex frame : {kAnchor + 2, kAnchor + 9}) {
                 QVERIFY(goTo(frame));
-                const auto pose = followedPose(track, frame, window().ground().ground()->run->footage.camera);
+                const auto pose =
+                    followedPose(track, frame, window().watching().ground().ground()->run->footage.camera);
                 if (!pose) continue;
                 const QPointF centre(pose->centre.x, pose->centre.y);
                 QVERIFY(QLineF(inView(centre), QRectF(canvas().rect()).center()).length() < 2);
@@ -172,13 +173,13 @@ class WatchingTest : public QObject {
     }
 
     void whatOneWorkspaceBeganOnTheCanvasEndsBeforeAnotherTakesIt() {
-        window().session().selectTrack(window().ground().ground()->run->tracks.front().id);
+        window().session().selectTrack(window().watching().ground().ground()->run->tracks.front().id);
         actions().follow_object->setChecked(true);
         actions().measure->trigger();
-        QVERIFY(window().watching().measureTool().measuring());
+        QVERIFY(window().watching().commands().measureTool().measuring());
         actions().workspaceAction(WorkspaceKind::label)->trigger();
-        QVERIFY(!window().watching().measureTool().measuring());
-        QVERIFY(canvas().tool() != nullptr && canvas().tool() != &window().watching().measureTool());
+        QVERIFY(!window().watching().commands().measureTool().measuring());
+        QVERIFY(canvas().tool() != nullptr && canvas().tool() != &window().watching().commands().measureTool());
         QCOMPARE(canvas().transform().rotation(), 0.0);
         actions().workspaceAction(WorkspaceKind::review)->trigger();
         QVERIFY(canvas().tool() == nullptr);
@@ -272,19 +273,22 @@ class WatchingTest : public QObject {
 
     void whatIsSeenIsSavedAndNeverOverAProject() {
         const std::filesystem::path seen = *home_ / "seen.png";
-        window().watching().writeSnapshot(seen, snapshotOf(canvas(), window().session(), SnapshotKind::as_seen));
+        window().watching().commands().writeSnapshot(seen,
+                                                     snapshotOf(canvas(), window().session(), SnapshotKind::as_seen));
         QTRY_VERIFY_WITH_TIMEOUT(std::filesystem::exists(seen), kPatience_ms);
         const QImage view(QString::fromStdString(seen.string()));
         QCOMPARE(view.width(), canvas().width());  // a message above it may come or go meanwhile
         QCOMPARE(view.text(QStringLiteral("Frame")), QString::number(kAnchor));
         QCOMPARE(view.text(QStringLiteral("Video")), QStringLiteral("scene.mp4"));
         const std::filesystem::path alone = *home_ / "alone.png";
-        window().watching().writeSnapshot(alone, snapshotOf(canvas(), window().session(), SnapshotKind::alone));
+        window().watching().commands().writeSnapshot(alone,
+                                                     snapshotOf(canvas(), window().session(), SnapshotKind::alone));
         QTRY_VERIFY_WITH_TIMEOUT(std::filesystem::exists(alone), kPatience_ms);
         QCOMPARE(QImage(QString::fromStdString(alone.string())).size(), QSize(240, 180));
         const auto project = window().session().project();
         const auto size = std::filesystem::file_size(project);
-        window().watching().writeSnapshot(project, snapshotOf(canvas(), window().session(), SnapshotKind::alone));
+        window().watching().commands().writeSnapshot(project,
+                                                     snapshotOf(canvas(), window().session(), SnapshotKind::alone));
         QTRY_VERIFY_WITH_TIMEOUT(tells(QString::fromStdString(project.filename().string())), kPatience_ms);
         QVERIFY(std::filesystem::file_size(project) >= size);
     }
@@ -311,7 +315,7 @@ class WatchingTest : public QObject {
 
     void theMosaicTellsWhenAPlaceWasSeenAndWhoCrossedIt() {
         QTest::keyClick(&canvas(), Qt::Key_M, Qt::ControlModifier | Qt::ShiftModifier);
-        MosaicPanel& panel = window().mosaic();
+        MosaicPanel& panel = window().watching().mosaic();
         QTRY_VERIFY_WITH_TIMEOUT(panel.mosaic() != nullptr && panel.mosaic()->share == 1, kPatience_ms);
         QCOMPARE(panel.mosaic()->pictures.size(), std::size_t(1));
         const SheetPicture& sheet = panel.mosaic()->pictures.front();
@@ -361,7 +365,7 @@ class WatchingTest : public QObject {
         for (int row = 0; row < model.rowCount() && id == 0; ++row)
             if (model.found()->eventAt(model.recordAt(row)->position) != nullptr) id = model.recordAt(row)->id;
         QVERIFY(id != 0);
-        EventCard& card = window().card().card();
+        EventCard& card = window().watching().card().card();
         window().events().show(id);
         QVERIFY(card.subject().has_value());
         QCOMPARE(card.subject()->event, id);
@@ -385,7 +389,7 @@ class WatchingTest : public QObject {
         // A track alone has a card without a note.
         window().session().selectTrack(std::nullopt);
         QVERIFY(!card.subject());
-        window().session().selectTrack(window().ground().ground()->run->tracks.back().id);
+        window().session().selectTrack(window().watching().ground().ground()->run->tracks.back().id);
         QVERIFY(card.subject()->event == 0 && !card.note().isVisible());
     }
 
@@ -400,7 +404,7 @@ class WatchingTest : public QObject {
         window().session().playback().setSpeed(1, 0);
         window().session().togglePlay();
         QTRY_VERIFY_WITH_TIMEOUT(!window().session().playback().playing(), kPatience_ms);
-        window().seen().flush();
+        window().watching().seen().flush();
         QTRY_VERIFY_WITH_TIMEOUT(share() > 0, kPatience_ms);
         QVERIFY(share() <= 100);
         QVERIFY2(window().timeline().watched() && !window().timeline().watched()->empty(), "the timeline shows where");

@@ -28,6 +28,7 @@
 #include "ui/support/ui_support.h"
 #include "ui/support/ui_test.h"
 #include "ui/window/shown_window.h"
+#include "widgets/message_bar.h"
 #include "window/docks/watching_docks.h"
 #include "window/main_window.h"
 #include "window/theme.h"
@@ -256,7 +257,7 @@ class WorkspacesTest : public QObject {
     void aFinishedRunDoesNotPushAWindowOffASmallScreen() {
         const Theme theme(*qApp);
         for (const QSize first : {QSize(1280, 690), QSize(1600, 900)}) {
-            const auto window = this->window(first);
+            const auto window = test::shownWindow(first);
             QVERIFY(window);
             window->session().settings().options.detection.method = DetectionMethod::gradient;
             window->session().settings().options.view.oblique = false;
@@ -339,7 +340,7 @@ class WorkspacesTest : public QObject {
     }
 
     void aDockAmongTabsHasNoTitleBesideItsTab() {
-        const auto window = this->window({1700, 900});
+        const auto window = test::shownWindow({1700, 900});
         QVERIFY(window);
         openWorkspace(*window, Qt::Key_3);
         const auto bare = [&](DockId id) { return window->docks().dock(id)->titleBarWidget() != nullptr; };
