@@ -111,6 +111,7 @@ void VideoView::setBadgeOnRight(bool on_right) {
 
 void VideoView::setTool(CanvasTool* tool) {
     tool_ = tool;
+    under_tool_ = {};
     hideKeyPointer();
     updateCursorShape();
     pictureWasChanged();

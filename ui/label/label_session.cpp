@@ -238,7 +238,7 @@ void LabelSession::tryToWrite() {
         const bool may = store_->tryToWrite();
         wasChanged();
         emit opened();
-        emit notice(may ? tr("You can label in this window now.") : tr("The other window still labels this project."));
+        emit notice(may ? tr("You can label in this window now.") : tr("Labels are still read-only here."));
     } catch (const std::exception& error) {
         emit problem(QString::fromUtf8(error.what()));
     }

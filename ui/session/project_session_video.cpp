@@ -37,7 +37,8 @@ void ProjectSession::openMedia(Media media, const fs::path& project) {
 
 void ProjectSession::beginOpening(Pending pending) {
     pending_ = std::move(pending);
-    if (std::exchange(project_opens_video_, false)) project_overtaken_ = true;
+    // Nobody asked for a recording to be read; a project that somebody did ask for still comes.
+    if (pending_->purpose != Purpose::recorded && std::exchange(project_opens_video_, false)) project_overtaken_ = true;
     run_when_open_ = false;
     emit openingProgress(QString::fromStdString(pending_->media.name), 0);
     loader_.openMedia(pending_->media, ++ticket_);
@@ -164,6 +165,7 @@ void ProjectSession::projectOpened(const ProjectLists& lists) {
     takeLists(lists);
     if (!lists.notice.empty()) emit notice(QString::fromStdString(lists.notice));
     if (opens_video) {
+        cancelOpening();  // of a recording
         openVideoOfProject();
         return;
     }

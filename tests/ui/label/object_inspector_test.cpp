@@ -36,6 +36,22 @@ class ObjectInspectorTest : public QObject {
         inspector.showObject(std::nullopt);
         QCOMPARE(kept.size(), 1);  // nothing was written of the other one
     }
+
+    void notesThatWereKeptAreNotWrittenAgain() {
+        ObjectInspector inspector;
+        ObjectDetails object;
+        object.id = 3;
+        QStringList kept;
+        ObjectEdits edits;
+        edits.set_notes = [&](int, const QString& notes) { kept << notes; };
+        inspector.setEdits(edits);
+        inspector.showObject(object);
+        QTest::keyClicks(&inspector.notes(), QStringLiteral("van"));
+        QTest::keyClick(&inspector.notes(), Qt::Key_Return);
+        QCOMPARE(kept, QStringList{QStringLiteral("van")});
+        inspector.showObject(std::nullopt);  // those of another video, which may have an object 3, too
+        QCOMPARE(kept.size(), 1);
+    }
 };
 
 }  // namespace eyrie::ui::object_inspector_test

@@ -58,8 +58,7 @@ class LabelTool : public QObject, public CanvasTool {
     /// draws an upright one. With an object its box is drawn anew.
     void startDrawing(std::optional<ObjectId> object = std::nullopt);
     bool drawing() const { return drawing_; }
-    /// The next clicks are the corners of an ignore region; a double click, the right button
-    /// or Enter ends it.
+    /// The next clicks are the corners of an ignore region; a double click, the right button or Enter ends it.
     void startRegion();
     bool drawingRegion() const { return region_.has_value(); }
     /// Where the mouse is, image coordinates; nothing while it is elsewhere.

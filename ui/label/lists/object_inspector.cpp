@@ -113,7 +113,7 @@ ObjectInspector::ObjectInspector(QWidget* parent) : QWidget(parent) {
                         {checked_, [this] { edits_.check(); }},
                         {questionable_, [this] { edits_.question(); }}});
     onFinished(
-        this, [this] { edits_.set_notes(shown_, notes_->text()); }, notes_);
+        this, [this] { keepNotes(shown_); }, notes_);
     connect(joins_, &QListWidget::itemDoubleClicked, this,
             [this](QListWidgetItem* item) { edits_.join(item->data(Qt::UserRole).toInt()); });
     connect(joins_, &QListWidget::itemClicked, this,
@@ -145,12 +145,19 @@ void ObjectInspector::setClasses(const QStringList& classes) {
     class_->setCurrentText(chosen);
 }
 
+/// Only once: what was written may be taken back, and other labels have objects of the same numbers.
+void ObjectInspector::keepNotes(int object) {
+    if (object == 0 || !notes_->isModified()) return;
+    notes_->setModified(false);
+    edits_.set_notes(object, notes_->text());
+}
+
 void ObjectInspector::showObject(const std::optional<ObjectDetails>& details) {
     const int object = details ? details->id : 0;
     const int former = std::exchange(shown_, object);
     const bool other = object != former;
     // Keys, and clicks that leave the focus where it is, choose another object while notes are being written.
-    if (other && former != 0 && notes_->isModified()) edits_.set_notes(former, notes_->text());
+    if (other) keepNotes(former);
     pages_->setCurrentIndex(details ? 1 : 0);
     if (!details) return;
     title_->setText(details->title);
@@ -172,7 +179,8 @@ void ObjectInspector::showObject(const std::optional<ObjectDetails>& details) {
     for (QWidget* widget : {static_cast<QWidget*>(class_), static_cast<QWidget*>(checked_),
                             static_cast<QWidget*>(questionable_), static_cast<QWidget*>(notes_)})
         widget->setEnabled(details->editable);
-    if (other || !notes_->hasFocus()) notes_->setText(details->notes);
+    const bool being_written = notes_->hasFocus() && notes_->isModified();
+    if ((other || !being_written) && notes_->text() != details->notes) notes_->setText(details->notes);
     joins_->clear();
     for (const JoinOffer& offer : details->joins) {
         auto* item = new QListWidgetItem(offer.text, joins_);

@@ -81,6 +81,7 @@ class ObjectInspector : public QWidget {
 
  private:
     void chooseColour();
+    void keepNotes(int object);
     void showColour(const ObjectDetails& details);
 
     ObjectEdits edits_;

@@ -95,7 +95,9 @@ void EventCard::keepWritten() {
     const QString note = note_->text(), tags = tags_->text();
     const bool note_written = note_->isModified() && note != subject_->note;
     const bool tags_written = tags_->isModified() && tags != subject_->tags;
-    // Both have been read: the card is shown anew when one is stored.
+    // The card is shown anew when one is stored: both have been read by then, and are written once.
+    note_->setModified(false);
+    tags_->setModified(false);
     if (note_written) commands_.write_note(event, note);
     if (tags_written) commands_.write_tags(event, tags);
 }

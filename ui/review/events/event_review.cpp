@@ -70,9 +70,11 @@ void EventReview::refresh() {
     const auto current = session_.currentRun();
     if (!data || !current || data->record.id != *current || session_.project().empty()) {
         // Of another run, whose tracks are not yet read, nothing may be shown that is this one's.
-        const bool of_another = (key_ && (key_->run != *current || key_->project != session_.project())) ||
-                                (watched_ && watched_->id != *current);
-        if (!current || of_another) close();
+        const auto is_of_another = [&] {
+            return (key_ && (key_->run != *current || key_->project != session_.project())) ||
+                   (watched_ && watched_->id != *current);
+        };
+        if (!current || is_of_another()) close();
         return;
     }
     const RunKey key{session_.project(), data->record.id, data->frames.size(), ownTracks(*data)};
