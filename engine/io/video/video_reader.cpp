@@ -62,6 +62,7 @@ FrameTiming timingOf(const std::vector<std::int64_t>& ticks, double tick_s) {
             sum_s += step_s;
             ++steps;
         }
+        if (sum_s <= 0) return {};
         return {static_cast<double>(steps) / sum_s, true};
     }
     return {static_cast<double>(usual_steps) / sum_s, usual_steps < steps_s.size()};

@@ -17,7 +17,7 @@ constexpr double kLifeOffset = 0.1;  ///< s
 constexpr double kLeastInPicture = 0.3;  ///< of the flow: what moves that much through the picture does not stick to it
 constexpr double kDeepestRatio = 0.25;   ///< of own motion to the flow: a fifth of the flight's height below the ground
 
-constexpr double kUnknownDecision = 1;  ///< tells nothing
+constexpr double kUnknownDecision = 1.8;  ///< tells nothing
 
 constexpr std::size_t kFigures = 8;
 /// As tests/learn_track_score prints them.
