@@ -23,11 +23,12 @@ constexpr double kLeastMagnification = 6;
 constexpr double kMostMagnification = 16;
 constexpr int kNudged_ms = 1500;
 constexpr double kShortest = 2;  ///< px: clicks nearer than this are one
+constexpr double kSmallestArea = 1;  ///< px², of a triangle of corners
 
 /// Whether three of the corners are no line. An outline may cross itself: what it winds around is ignored.
 bool hasArea(const std::vector<cv::Point2d>& corners) {
     for (std::size_t i = 2; i < corners.size(); ++i)
-        if (std::abs((corners[1] - corners[0]).cross(corners[i] - corners[0])) >= kShortest) return true;
+        if (std::abs((corners[1] - corners[0]).cross(corners[i] - corners[0])) >= 2 * kSmallestArea) return true;
     return false;
 }
 }  // namespace
