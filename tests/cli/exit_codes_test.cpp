@@ -95,16 +95,17 @@ TEST_F(ExitCodes, AProjectWithoutRunsOrLabelsIsFiveEverywhere) {
 }
 
 TEST_F(ExitCodes, ARunThatIsNotThereIsTwoEverywhere) {
-    expect({{{"evaluate", "--project", "@p.eyrie", "--ground-truth", "@boxes.csv", "--run", "7"}, 2, "the runs 1"},
-            {{"events", "--project", "@p.eyrie", "--run", "7"}, 2, "the runs 1"},
-            {{"report", "--project", "@p.eyrie", "--out", "@r.html", "--run", "7"}, 2, "the runs 1"},
-            {{"report", "--project", "@p.eyrie", "--events", "--out", "@r.html", "--run", "7"}, 2, "the runs 1"},
-            {{"report", "--project", "@p.eyrie", "--events", "--out", "@r.html", "--overlap", "0.3"}, 2, "--events"},
-            {{"report", "--project", "@p.eyrie", "--out", "@r.html", "--verdict", "relevant"}, 2, "add --events"},
-            {{"report", "--project", "@p.eyrie", "--events", "--out", "@r.html", "--start", "noon"}, 2, "UTC"},
-            {{"report", "--project", "@p.eyrie", "--out", "@r.html", "--against", "7"}, 2, "--against 7"},
-            {{"export", "--project", "@p.eyrie", "--run", "7", "--format", "mot", "--out", "@x.txt"}, 2, "the runs 1"},
-            {{"sweep", "--project", "@p.eyrie", "--run", "7", "--parameter", "gradient.quantile=0.3"}, 2, "runs 1"}});
+    expect(
+        {{{"evaluate", "--project", "@p.eyrie", "--ground-truth", "@boxes.csv", "--run", "7"}, 2, "run 1 alone"},
+         {{"events", "--project", "@p.eyrie", "--run", "7"}, 2, "run 1 alone"},
+         {{"report", "--project", "@p.eyrie", "--out", "@r.html", "--run", "7"}, 2, "run 1 alone"},
+         {{"report", "--project", "@p.eyrie", "--events", "--out", "@r.html", "--run", "7"}, 2, "run 1 alone"},
+         {{"report", "--project", "@p.eyrie", "--events", "--out", "@r.html", "--overlap", "0.3"}, 2, "--events"},
+         {{"report", "--project", "@p.eyrie", "--out", "@r.html", "--verdict", "relevant"}, 2, "add --events"},
+         {{"report", "--project", "@p.eyrie", "--events", "--out", "@r.html", "--start", "noon"}, 2, "UTC"},
+         {{"report", "--project", "@p.eyrie", "--out", "@r.html", "--against", "7"}, 2, "--against 7"},
+         {{"export", "--project", "@p.eyrie", "--run", "7", "--format", "mot", "--out", "@x.txt"}, 2, "run 1 alone"},
+         {{"sweep", "--project", "@p.eyrie", "--run", "7", "--parameter", "gradient.quantile=0.3"}, 2, "run 1 alone"}});
 }
 
 TEST_F(ExitCodes, AnInputThatCannotBeReadIsThreeEverywhere) {

@@ -125,7 +125,8 @@ TEST_F(CheckTest, FindsImpossibleValues) {
           "UPDATE labelled_object SET keyframes = x'0901' WHERE id = 2",
           "UPDATE detection SET rejection = 'so so' WHERE frame = 1",
           "UPDATE detection SET probability = 1.5 WHERE frame = 1",
-          "INSERT INTO track_evidence VALUES (1, 3, 0.5, 0.5, 1, 1, 1, 0, 7)",
+          "INSERT INTO track_evidence VALUES (1, 3, 0.5, 0.5, 1, 1, 1, 0, 7, NULL)",
+          "INSERT INTO track_evidence VALUES (1, 3, 0.5, 0.5, 1, 1, 1, 0, 0.7, 13)",
           "INSERT INTO doubtful_state SELECT run_id, frame, track_id, x, y, length, width, heading_rad, vx, vy, "
           "'sure', "
           "origin, age, hits, score FROM track_state LIMIT 1",

@@ -146,6 +146,7 @@ TEST_F(ProjectFileTest, AnOlderProjectIsBroughtUpToDateEvenForReading) {
                   "ALTER TABLE run DROP COLUMN scale_growth_right",
                   "ALTER TABLE run DROP COLUMN scale_growth_down",
                   "ALTER TABLE detection DROP COLUMN probability",
+                  "ALTER TABLE detection DROP COLUMN decision",
                   "ALTER TABLE run DROP COLUMN scale_origin",
                   "ALTER TABLE run DROP COLUMN scale_uncertainty",
                   "ALTER TABLE run DROP COLUMN scale_vehicles",
@@ -386,7 +387,9 @@ TEST_F(ProjectFileTest, StatesOfBeforeSchemaTwentyAreReadAsTheyWere) {
         "origin END";
     makeDatabase({whole_words, "DROP VIEW v_track_states", "DROP VIEW v_tracks", "ALTER TABLE track DROP COLUMN score",
                   "ALTER TABLE track DROP COLUMN x_sum", "ALTER TABLE track DROP COLUMN y_sum",
-                  "ALTER TABLE sequence DROP COLUMN start_utc",
+                  "ALTER TABLE sequence DROP COLUMN start_utc", "DROP INDEX doubtful_state_of_track",
+                  "DROP VIEW v_detections", "DROP VIEW v_track_evidence", "ALTER TABLE detection DROP COLUMN decision",
+                  "ALTER TABLE track_evidence DROP COLUMN decision",
                   "CREATE INDEX track_state_of_track ON track_state (run_id, track_id, frame)",
                   "PRAGMA user_version = 19"});
     ProjectFile project = ProjectFile::open(path_);

@@ -3,6 +3,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "store/project/schema.h"
@@ -76,6 +77,7 @@ FrameResult sampleFrame(FrameIndex frame, const SampleSize& size) {
                                      dice.indices(size.motion_vectors),
                                      static_cast<Rejection>(i % 4),
                                      i % 3 == 0});
+        if (i % 2 == 0) result.detections.back().decision = i - 2.5;
     }
     for (int i = 0; i < size.tracks; ++i) {
         result.tracks.push_back({i + 1,
@@ -197,6 +199,8 @@ void expectSame(const FrameResult& read, const FrameResult& written) {
         EXPECT_EQ(read.detections[i].vectors, written.detections[i].vectors);
         EXPECT_EQ(read.detections[i].rejection, written.detections[i].rejection);
         EXPECT_EQ(read.detections[i].complete, written.detections[i].complete);
+        EXPECT_TRUE(read.detections[i].decision == written.detections[i].decision ||
+                    (std::isnan(read.detections[i].decision) && std::isnan(written.detections[i].decision)));
     }
     ASSERT_EQ(read.tracks.size(), written.tracks.size());
     for (std::size_t i = 0; i < read.tracks.size(); ++i) expectSameTrack(read.tracks[i], written.tracks[i]);

@@ -117,7 +117,7 @@ TEST(SweepResultsByHand, TwoParametersAreAGrid) {
 TEST(SweepResultsByHand, ListsNameTheFirstAndCountTheOthers) {
     const SweepPlan plan = test::sweepPlan({"gradient.quantile=0.1,0.2,0.3"});
     EXPECT_EQ(listOf(plan, {0, 2}, 2), "gradient.quantile = 0.1; gradient.quantile = 0.3");
-    EXPECT_EQ(listOf(plan, {0, 1, 2}, 2), "gradient.quantile = 0.1; gradient.quantile = 0.2 and 1 others");
+    EXPECT_EQ(listOf(plan, {0, 1, 2}, 2), "gradient.quantile = 0.1; gradient.quantile = 0.2 and 1 more");
     EXPECT_EQ(listOf(plan, {}, 2), "");
 }
 
@@ -127,7 +127,10 @@ TEST(SweepResultsByHand, DetectionsHaveNoMeasuresOfTracks) {
         EXPECT_NE(measureText(key).group, "tracking") << key;
         EXPECT_NE(measureText(key).group, "identity") << key;
     }
-    EXPECT_GT(figuresOf(Measures(), 0, true).values.size(), of_detections.values.size());
+    Measures of_tracks;
+    of_tracks.tracking = TrackingMeasures();
+    EXPECT_EQ(figuresOf(of_tracks, 0, false).values.size(), of_detections.values.size());
+    EXPECT_GT(figuresOf(of_tracks, 0, true).values.size(), of_detections.values.size());
 }
 
 TEST(ClipFramesByHand, ARangeLiesWithinTheVideo) {

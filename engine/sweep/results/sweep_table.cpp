@@ -121,7 +121,7 @@ std::string listOf(const SweepPlan& plan, const std::vector<int>& positions, std
     std::string text;
     const std::size_t shown = std::min(at_most, positions.size());
     for (std::size_t i = 0; i < shown; ++i) text += (i > 0 ? "; " : "") + plan.describe(positions[i]);
-    if (shown < positions.size()) text += " and " + std::to_string(positions.size() - shown) + " others";
+    if (shown < positions.size()) text += " and " + std::to_string(positions.size() - shown) + " more";
     return text;
 }
 

@@ -22,7 +22,7 @@ constexpr double kLoupeFactor = 2;        ///< of the canvas' own scale …
 constexpr double kLeastMagnification = 6;
 constexpr double kMostMagnification = 16;
 constexpr int kNudged_ms = 1500;
-constexpr double kShortest = 2;  ///< px: clicks nearer than this are one
+constexpr double kShortest = 2;      ///< px: clicks nearer than this are one
 constexpr double kSmallestArea = 1;  ///< px², of a triangle of corners
 
 /// Whether three of the corners are no line. An outline may cross itself: what it winds around is ignored.
