@@ -19,6 +19,13 @@
 namespace eyrie::project_file_test {
 namespace {
 
+/// A sample as projects told it before they kept what the classifier says of a box.
+FrameResult frameOfBeforeDecisions(int frame) {
+    FrameResult sample = test::sampleFrame(frame);
+    for (Detection& detection : sample.detections) detection.decision = Detection().decision;
+    return sample;
+}
+
 using testing::HasSubstr;
 
 class ProjectFileTest : public testing::Test {
@@ -426,13 +433,6 @@ TEST_F(ProjectFileTest, ViewsTellTracksInUnitsOfPeople) {
     EXPECT_EQ(other.execAndGet("SELECT count(*) FROM v_track_states WHERE heading_deg NOT BETWEEN 0 AND 360").getInt(),
               0);
     EXPECT_EQ(other.execAndGet("SELECT count(*) FROM v_frames").getInt(), 8);
-}
-
-/// A sample as projects told it before they kept what the classifier says of a box.
-FrameResult frameOfBeforeDecisions(int frame) {
-    FrameResult sample = test::sampleFrame(frame);
-    for (Detection& detection : sample.detections) detection.decision = Detection().decision;
-    return sample;
 }
 
 }  // namespace
