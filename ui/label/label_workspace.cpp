@@ -27,7 +27,6 @@
 #include "label/object_pictures.h"
 #include "widgets/display_text.h"
 #include "widgets/empty_state.h"
-#include "widgets/layout/scrolled.h"
 #include "widgets/message_bar.h"
 #include "widgets/wiring.h"
 #include "workspace/dock_registry.h"
@@ -80,7 +79,7 @@ void LabelWorkspace::buildDocks() {
     objects_ = new ObjectsPanel(model_);
     inspector_ = new ObjectInspector;
     around_.docks.add(DockId::objects, tr("Objects"), objects_);
-    around_.docks.add(DockId::object, tr("Object"), scrolled(inspector_));
+    around_.docks.add(DockId::object, tr("Object"), inspector_);
 }
 
 void LabelWorkspace::buildToolBar() {

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "widgets/empty_state.h"
+#include "widgets/layout/scrolled.h"
 #include "widgets/swatch.h"
 #include "widgets/wiring.h"
 
@@ -101,7 +102,7 @@ ObjectInspector::ObjectInspector(QWidget* parent) : QWidget(parent) {
     layout->addWidget(joins_, 1);
     layout->addStretch(0);
     pages_->addWidget(empty_);
-    pages_->addWidget(page);
+    pages_->addWidget(scrolled(page));
     connect(class_, &QComboBox::textActivated, this, [this](const QString& name) { edits_.set_class(name); });
     connect(class_->lineEdit(), &QLineEdit::returnPressed, this, [this] {
         const QString name = class_->currentText().simplified().toLower();

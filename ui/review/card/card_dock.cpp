@@ -5,7 +5,6 @@
 #include "review/events/events_model.h"
 #include "review/tracks/tracks_model.h"
 #include "review/watch/watched_ground.h"
-#include "widgets/layout/scrolled.h"
 #include "workspace/dock_registry.h"
 #include "workspace/first_step.h"
 #include "workspace/session_reactions.h"
@@ -19,7 +18,7 @@ CardDock::CardDock(const CardParts& parts)
       loader_([this](const std::shared_ptr<const VehicleStory>& story) {
           if (asked_ == story->wish) card_->setStory(story, parts_.session.scale());
       }) {
-    parts_.docks.add(DockId::card, tr("Card"), scrolled(card_));
+    parts_.docks.add(DockId::card, tr("Card"), card_);
     parts_.docks.watch(DockId::card, card_, [this](bool visible) {
         looked_at_ = visible;
         askForStory();

@@ -9,6 +9,7 @@
 
 #include "review/card/story_sketch.h"
 #include "widgets/empty_state.h"
+#include "widgets/layout/scrolled.h"
 #include "widgets/wiring.h"
 
 namespace eyrie::ui {
@@ -65,7 +66,7 @@ EventCard::EventCard(QWidget* parent) : QWidget(parent), loop_(kChipPeriod_ms, [
     grid->setColumnStretch(1, 1);
     stack_ = new QStackedLayout(this);
     stack_->addWidget(empty_);
-    stack_->addWidget(card);
+    stack_->addWidget(scrolled(card));
     onFinished(
         this,
         [this] {
