@@ -3,6 +3,7 @@
 #include <opencv2/core/utility.hpp>
 #include <utility>
 
+#include "chain/recording/classified_vehicles.h"
 #include "core/values/stopwatch.h"
 #include "detection/detector_table.h"
 #include "detection/roi_cutter.h"
@@ -44,10 +45,8 @@ TrackHalf::TrackHalf(const ChainOptions& options, const SceneScale& scale)
       tracker_(options.tracking, scale) {
     if (options.difference.method != MotionMethod::vectors)
         difference_ = std::make_unique<DifferenceMotion>(options.difference, scale);
-    if (looksThroughWindows(options.detection.method)) {
-        classifier_.emplace(makeBoxClassifier(options.detection.sliding_window, scale));
-        scores_.emplace(scale);
-    }
+    classifier_ = classifierOfBoxes(options, scale);
+    if (classifier_) scores_.emplace(scale);
     if (options.stacking.enabled) stacker_ = std::make_unique<ImageStacker>(options.stacking, scale);
 }
 

@@ -17,7 +17,6 @@
 #include "core/labels/result_box.h"
 #include "detection/detector_factory.h"
 #include "detection/roi_cutter.h"
-#include "detection/sliding_window/box_classifier.h"
 
 namespace eyrie {
 namespace {
@@ -267,9 +266,7 @@ std::shared_ptr<const StageCache::Detected> StageCache::detected(const Point& po
             const auto found = this->found(point, motion);
             count(ChainStage::removal);
             detected->frames.resize(motion.size());
-            std::optional<BoxClassifier> classifier;
-            if (looksThroughWindows(point.options.detection.method))
-                classifier.emplace(makeBoxClassifier(point.options.detection.sliding_window, point.scale));
+            const auto classifier = classifierOfBoxes(point.options, point.scale);
             forFrames(point.stop, [&](std::size_t i, ClipFrames::Reader& reader) {
                 detected->frames[i] = removed((*found)[i], motion[i], point.options, point.scale);
                 if (classifier && classifier->looksAt(motion[i].frame))
