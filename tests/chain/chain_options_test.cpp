@@ -154,6 +154,7 @@ TEST(ChainOptions, theThesisPresetDiffersFromTheDefaultsWhereItMust) {
         {"motion.baseline", "5"},
         {"motion.min_speed_px", "0"},
         {"motion.sigma_factor", "0"},
+        {"motion.noise_cell", "0"},
         {"motion.follow_rate", "false"},
         {"motion.follow_turns", "false"},
         {"motion.shadow_test", "false"},

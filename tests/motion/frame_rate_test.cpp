@@ -41,9 +41,9 @@ TEST(FrameRate, TheThesisCountsFramesWhateverTheRate) {
 
 TEST(FrameRate, TheBaselineIsAsLongAsAtTheUsualRateAndNeverLongerThanAskedFor) {
     IndependentMotionOptions options;
-    EXPECT_EQ(options.atRate(25).baseline, 12);
-    EXPECT_EQ(options.atRate(10).baseline, 12);
-    EXPECT_EQ(options.atRate(5).baseline, 6);
+    EXPECT_EQ(options.atRate(25).baseline, 16);
+    EXPECT_EQ(options.atRate(10).baseline, 16);
+    EXPECT_EQ(options.atRate(5).baseline, 8);
     EXPECT_EQ(options.atRate(2).baseline, 3);
     options.baseline = 2;
     options.min_age = 1;

@@ -23,6 +23,7 @@ const SceneScale kScale{0.3, 25, true};
 
 IndependentMotionOptions plain() {
     IndependentMotionOptions options;
+    options.baseline = 12;
     options.shadow.shadow_test = false;  // flat frames are nothing but shadow or nothing but ground
     return options;
 }
@@ -358,6 +359,7 @@ TEST(IndependentMotionOptions, ThesisUsesOneThresholdAfterFiveFrames) {
     EXPECT_FALSE(options.follow_turns);
     EXPECT_FALSE(options.find_slow);
     EXPECT_EQ(options.sigma_factor, 0);
+    EXPECT_EQ(options.noise_cell, 0);
     EXPECT_EQ(options.max_speed_m_s, 0);
     EXPECT_FALSE(options.shadow.shadow_test);
     EXPECT_FALSE(options.silhouettes.silhouettes);

@@ -158,6 +158,49 @@ TEST(MovingAreas, MustBeSureWhereCornersNearlySuffice) {
     EXPECT_THAT(inferred(scene, motion, withNoise), IsEmpty());
 }
 
+TEST(MovingAreas, FollowWhatGoesFarBetweenTheFewPicturesOfASlowVideo) {
+    // 50 px, 16 m, from picture to picture; in the last the car is nearer to the right border than it may have come.
+    const SceneScale slow{0.32, 2, true};
+    const auto found = [&](const SceneScale& scale) {
+        CarScene scene = sceneWith({50, 0});
+        scene.camera_per_frame = {1, 0};
+        MovingAreas areas({}, scale);
+        for (int index = 0; index < 3; ++index)
+            areas.add({index, index * 500000, scene.draw(index), {}}, panned(scene, index));
+        FrameMotion motion = starved(scene);
+        motion.corner_count = 320 * 240 / 10;  // eight on a car, of which none could be followed on it
+        return areas.infer(motion, [](cv::Point2d) { return 0.1; });
+    };
+    const auto vectors = found(slow);
+    ASSERT_THAT(vectors, Not(IsEmpty()));
+    for (const MotionVector& vector : vectors) {
+        EXPECT_TRUE(OrientedBox(cv::Point2d(248, 120), 14, 6, 0).contains(vector.position, 3)) << vector.position;
+        EXPECT_NEAR(vector.velocity.x, 50, 0.3);
+        EXPECT_NEAR(vector.velocity.y, 0, 0.3);
+    }
+    EXPECT_THAT(found({0.32, 9, true}), IsEmpty()) << "corners can be followed there";
+}
+
+TEST(MovingAreas, LetVehiclesBrakeByATenthOfTheirWay) {
+    const SceneScale slow{0.32, 2, true};
+    // Where the car is in three pictures: it goes 40 px, then `last`.
+    const auto found = [&](double last) {
+        CarScene scene = sceneWith({40, 0});
+        scene.camera_per_frame = {0, 0};
+        MovingAreas areas({}, slow);
+        for (int index = 0; index < 3; ++index) {
+            CarScene here = scene;
+            if (index == 2) here.velocity.x = (40 + last) / 2;
+            areas.add({index, index * 500000, here.draw(index), {}}, panned(scene, index));
+        }
+        return !areas.infer(starved(scene), [](cv::Point2d) { return 0.1; }).empty();
+    };
+    EXPECT_TRUE(found(40));
+    EXPECT_TRUE(found(37));
+    EXPECT_TRUE(found(43));
+    EXPECT_FALSE(found(30));
+}
+
 TEST(MovingAreas, LeaveCarsAloneThatHaveVectors) {
     const CarScene scene = sceneWith({2, 0});
     const cv::Point2f centre = scene.carAt(kFrames - 1);
@@ -204,6 +247,8 @@ TEST_P(LimitsOfMovingAreas, LieAboutTheCar) {
         MovingAreaOptions options;
         if (GetParam().parameter == std::string("motion.area_sure_correlation")) options.area_few_corners = 0.4;
         if (GetParam().parameter == std::string("motion.area_few_corners")) options.area_sure_correlation = 1;
+        if (GetParam().parameter == std::string("motion.area_low_rate")) options.area_low_rate_correlation = 1;
+        if (GetParam().parameter == std::string("motion.area_low_rate_correlation")) options.area_low_rate_hz = 26;
         setParameter(describeOf(options), GetParam().parameter, value);
         if (GetParam().parameter != std::string("motion.area_noise_factor"))
             return !inferred(scene, starved(scene), {}, options).empty();
@@ -222,7 +267,9 @@ INSTANTIATE_TEST_SUITE_P(
                     AreaLimit{"motion.area_min_size", "2", "15"}, AreaLimit{"motion.area_min_size_px", "20", "300"},
                     AreaLimit{"motion.area_max_length", "8", "2"}, AreaLimit{"motion.area_min_shift", "5.5", "6.5"},
                     AreaLimit{"motion.area_min_correlation", "0.5", "0.9999"},
-                    AreaLimit{"motion.area_sure_correlation", "0.5", "0.9999"}),
+                    AreaLimit{"motion.area_sure_correlation", "0.5", "0.9999"},
+                    AreaLimit{"motion.area_low_rate", "25", "26"},
+                    AreaLimit{"motion.area_low_rate_correlation", "0.5", "0.9999"}),
     [](const auto& limit) { return std::string(limit.param.parameter).substr(12); });
 
 TEST(MovingAreas, OfVeryManyOnlyTheLargestAreLookedAt) {
@@ -308,8 +355,25 @@ TEST(AreaMatching, HasNoAnswerForPlainAreasOrAtTheBorder) {
     EXPECT_FALSE(matchArea(pixels, plain, plain, {0, 0}, 5));
     const cv::Mat textured = sceneWith({0, 0}).draw(0);
     EXPECT_TRUE(matchArea(pixels, textured, textured, {0, 0}, 5));
-    EXPECT_FALSE(matchArea(pixels, textured, textured, {0, 0}, 60));
     EXPECT_FALSE(matchArea({}, textured, textured, {0, 0}, 5));
+    // 320 px wide: a pixel is left around it at 265, not at 266.
+    EXPECT_TRUE(matchArea(pixels, textured, textured, {265, 0}, 5));
+    EXPECT_FALSE(matchArea(pixels, textured, textured, {266, 0}, 5));
+    EXPECT_TRUE(matchArea(pixels, textured, textured, {-49, -49}, 5));
+    EXPECT_FALSE(matchArea(pixels, textured, textured, {-49, -50}, 5));
+}
+
+TEST(AreaMatching, LooksAsFarAsThePictureGoes) {
+    const cv::Mat from = sceneWith({0, 0}).draw(0);
+    std::vector<cv::Point> pixels;
+    for (int y = 4; y < 12; ++y) {
+        for (int x = 300; x < 314; ++x) pixels.emplace_back(x, y);
+    }
+    cv::Mat to;
+    cv::warpAffine(from, to, cv::Matx23d(1, 0, -27, 0, 1, 19), from.size(), cv::INTER_NEAREST, cv::BORDER_REPLICATE);
+    const auto found = matchArea(pixels, from, to, {0, 0}, 40);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(cv::norm(found->shift - cv::Point2d(-27, 19)), 0, 0.1);
 }
 
 }  // namespace eyrie::moving_areas_test

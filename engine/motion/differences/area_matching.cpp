@@ -65,16 +65,18 @@ class Pattern {
     std::uint32_t squares_ = 0;
 };
 
-/// The shift with the best correlation among those `step` px apart within `reach` of `around`.
-cv::Point bestShift(const Pattern& pattern, cv::Point around, int reach, int step) {
+/// The shift with the best correlation among those of `allowed` that lie `step` px apart within `reach` of `around`.
+cv::Point bestShift(const Pattern& pattern, cv::Point around, int reach, int step, const cv::Rect& allowed) {
     cv::Point best = around;
     double highest = -2;
     for (int dy = -reach; dy <= reach; dy += step) {
         for (int dx = -reach; dx <= reach; dx += step) {
-            const double correlation = pattern.correlation(around + cv::Point(dx, dy));
+            const cv::Point shift = around + cv::Point(dx, dy);
+            if (!allowed.contains(shift)) continue;
+            const double correlation = pattern.correlation(shift);
             if (correlation <= highest) continue;
             highest = correlation;
-            best = around + cv::Point(dx, dy);
+            best = shift;
         }
     }
     return best;
@@ -84,22 +86,21 @@ cv::Point bestShift(const Pattern& pattern, cv::Point around, int reach, int ste
 
 std::optional<AreaMatch> matchArea(const std::vector<cv::Point>& pixels, const cv::Mat& from, const cv::Mat& to,
                                    cv::Point around, int reach) {
+    if (pixels.empty() || pixels.size() > kMostPixels) return std::nullopt;
     const cv::Rect bounds = cv::boundingRect(pixels);
-    const int margin = reach + kFineReach + 1;
-    const cv::Rect searched(bounds.x + around.x - margin, bounds.y + around.y - margin, bounds.width + 2 * margin,
-                            bounds.height + 2 * margin);
-    if (pixels.empty() || (searched & cv::Rect({0, 0}, to.size())) != searched) return std::nullopt;
-    if (pixels.size() > kMostPixels) return std::nullopt;
+    // Wholly inside, with a pixel around for the fraction.
+    const cv::Rect allowed(cv::Point(1, 1) - bounds.tl(), to.size() - bounds.size() - cv::Size(1, 1));
+    if (!allowed.contains(around)) return std::nullopt;
     const Pattern pattern(pixels, 1, from, to);
     if (pattern.spread() < kPlain * kPlain * pattern.count()) return std::nullopt;
     cv::Point best = around;
     if (reach > 2 * kFineReach) {
         // Every other shift with some of the pixels shows where to look closely.
         const Pattern some(pixels, std::max<std::size_t>(1, pixels.size() / kFewPixels), from, to);
-        best = bestShift(some, around, reach, 2);
-        best = bestShift(pattern, best, kFineReach, 1);
+        best = bestShift(some, around, reach, 2, allowed);
+        best = bestShift(pattern, best, kFineReach, 1, allowed);
     } else {
-        best = bestShift(pattern, around, reach, 1);
+        best = bestShift(pattern, around, reach, 1, allowed);
     }
     const auto at = [&](int dx, int dy) { return pattern.correlation(best + cv::Point(dx, dy)); };
     AreaMatch match;

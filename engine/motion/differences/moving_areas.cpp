@@ -22,8 +22,9 @@ constexpr int kAround = 2;                ///< px that an area grows by before i
 constexpr int kPictureMargin = 3;         ///< px of the halved picture, where interpolation and blur answer to nothing
 constexpr std::size_t kMostAreas = 1500;  ///< the largest; more are waves or flicker
 constexpr double kMaxSpeed = 40;          ///< m/s
-constexpr int kLongestReach = 40;         ///< px
-constexpr int kReturnReach = 2;           ///< px by which the way back may differ from the way on
+constexpr int kLongestReach = 100;        ///< px
+constexpr int kReturnReach = 2;           ///< px by which the way back may differ from the way on …
+constexpr double kReturnShare = 0.1;      ///< … or this share of the way: vehicles brake and turn
 constexpr std::size_t kEnough = 3;        ///< vectors with which a vehicle needs no more
 constexpr double kAlike = 0.3;            ///< difference of velocities, as a share of the speed …
 constexpr double kAlikePx = 0.4;          ///< … and px/frame
@@ -198,6 +199,13 @@ void MovingAreaOptions::describe(ParameterVisitor& visitor) {
                  {"", "Lowest correlation of an area's pixels with where they went and where they came from.", ""});
     declare.real("motion.area_sure_correlation", area_sure_correlation, -1, 1,
                  {"", "The same where a car carries motion.area_few_corners corners or more.", ""});
+    declare.real("motion.area_low_rate", area_low_rate_hz, 0, 1000,
+                 {"Hz",
+                  "Below so many frames a second areas are used whatever corners a car carries: from frame to frame "
+                  "it goes too far for them to be followed.",
+                  ""});
+    declare.real("motion.area_low_rate_correlation", area_low_rate_correlation, -1, 1,
+                 {"", "Lowest correlation there: a vehicle looks different by then.", ""});
 }
 
 int MovingAreaOptions::gapFrames(const SceneScale& scale) const {
@@ -265,16 +273,18 @@ std::optional<cv::Point2d> MovingAreas::shiftOf(const DifferingArea& area, doubl
     const cv::Point2d shift = on->shift - cv::Point2d(bounds.tl());
 
     const cv::Point back(-cvRound(shift.x), -cvRound(shift.y));
-    const int margin = kReturnReach + 4;
+    const int return_reach = std::max(kReturnReach, cvRound(kReturnShare * std::hypot(shift.x, shift.y)));
+    const int margin = return_reach + 4;
     const cv::Rect whence(bounds.x + back.x - margin, bounds.y + back.y - margin, bounds.width + 2 * margin,
                           bounds.height + 2 * margin);
     const cv::Mat long_before = partOf(frames_.picture(2 * gap_), frames_.pathTo(2 * gap_), whence);
-    const auto came = matchArea(pixels, before, long_before, {margin, margin}, kReturnReach);
+    const auto came = matchArea(pixels, before, long_before, {margin, margin}, return_reach);
     if (!came || came->correlation < min_correlation) return std::nullopt;
     return shift;
 }
 
 std::optional<double> MovingAreas::correlationNeeded(const FrameMotion& motion, cv::Point2d place) const {
+    if (scale_.frame_rate_hz < options_.area_low_rate_hz) return options_.area_low_rate_correlation;
     const double corners_on_car = cornersOnCar(motion, scale_.at(place));
     if (corners_on_car >= options_.area_max_corners) return std::nullopt;
     return corners_on_car < options_.area_few_corners ? options_.area_min_correlation : options_.area_sure_correlation;

@@ -26,7 +26,9 @@ struct MovingAreaOptions {
     double area_max_length_m = 20;      ///< longer ones neither
     double area_min_shift = 1.5;        ///< between two of the pictures; smaller shifts may be misregistration
     double area_min_correlation = 0.8;  ///< of an area's pixels with where they went …
-    double area_sure_correlation = 0.93;  ///< … where corners nearly suffice
+    double area_sure_correlation = 0.93;     ///< … where corners nearly suffice
+    double area_low_rate_hz = 8;             ///< below, areas are used whatever the corners …
+    double area_low_rate_correlation = 0.6;  ///< … from this correlation on
 
     /// Frames between two of the three pictures that are compared.
     int gapFrames(const SceneScale& scale) const;

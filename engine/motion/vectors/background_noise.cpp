@@ -36,4 +36,8 @@ double BackgroundNoise::sigma(int baseline) const {
     return sigma_[static_cast<std::size_t>(std::clamp(baseline, 0, static_cast<int>(sigma_.size()) - 1))];
 }
 
+double BackgroundNoise::usual(int baseline) const {
+    return kRayleighMedian * sigma(baseline);
+}
+
 }  // namespace eyrie

@@ -17,6 +17,8 @@ class BackgroundNoise {
     void finish();
     /// Deviation of one velocity component, px/frame. Baselines with few corners take the displacement error of all.
     double sigma(int baseline) const;
+    /// Median of the speeds over `baseline` frames, px/frame.
+    double usual(int baseline) const;
 
  private:
     std::vector<std::vector<float>> speeds_;  ///< [baseline]

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/vectors/noise_map.h"
+
 namespace eyrie {
 namespace {
 
@@ -118,7 +120,7 @@ double IndependentMotion::speedLimit(double min_speed, double sigma) const {
 }
 
 CornerVerdict IndependentMotion::verdictOn(const Corner& corner, const Measured& measured, const Measured& slow,
-                                           const BackgroundNoise& noise) const {
+                                           const BackgroundNoise& noise, double noise_here) const {
     CornerVerdict verdict;
     verdict.id = corner.id;
     verdict.position = corner.current;
@@ -126,7 +128,7 @@ CornerVerdict IndependentMotion::verdictOn(const Corner& corner, const Measured&
     verdict.on_background = corner.on_background;
     const bool young = corner.age < options_.min_age || measured.baseline == 0;
     const auto take = [&](const Measured& m, double min_speed, const char* name) {
-        const double sigma = noise.sigma(m.baseline);
+        const double sigma = noise_here * noise.sigma(m.baseline);
         const double limit = speedLimit(min_speed, sigma);
         const double speed = length(m.velocity);
         const bool closer = verdict.baseline == 0 || speed * verdict.limit > verdict.speed * limit;
@@ -164,6 +166,7 @@ void IndependentMotion::sortCorners(const RegisteredFrame& registered, const Fra
     const auto background = static_cast<std::size_t>(
         std::count_if(corners.begin(), corners.end(), [](const Corner& corner) { return corner.on_background; }));
     const bool trust_background = background * 4 >= corners.size();
+    const auto isGround = [&](const Corner& corner) { return !trust_background || corner.on_background; };
 
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const cv::Point2d now = corners[i].current;
@@ -186,13 +189,20 @@ void IndependentMotion::sortCorners(const RegisteredFrame& registered, const Fra
         }
     }
     for (std::size_t i = 0; i < corners.size(); ++i) {
-        if (trust_background && !corners[i].on_background) continue;
+        if (!isGround(corners[i])) continue;
         if (measured[i].baseline > 0) noise.add(measured[i].baseline, length(measured[i].velocity));
         if (options_.find_slow && slow[i].baseline > measured[i].baseline)
             noise.add(slow[i].baseline, length(slow[i].velocity));
     }
     noise.finish();
     motion.background_speed_sigma = noise.sigma(options_.baseline);
+    NoiseMap noise_map(frame.gray.empty() ? motion.image_size : frame.gray.size(), options_.noise_cell);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        if (!isGround(corners[i]) || measured[i].baseline == 0) continue;
+        const double usual = noise.usual(measured[i].baseline);
+        if (usual > 0) noise_map.add(corners[i].current, length(measured[i].velocity) / usual);
+    }
+    noise_map.finish();
 
     parallax_test_.clear();
     if (options_.parallax.parallax_test) {
@@ -208,11 +218,12 @@ void IndependentMotion::sortCorners(const RegisteredFrame& registered, const Fra
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const Corner& corner = corners[i];
         const SpeedLimits limits = limitsAt(corner.current);
+        const double noise_here = noise_map.at(corner.current);
         const auto moves = [&](const Measured& m, double min_speed) {
             if (m.baseline == 0 || corner.age < options_.min_age) return false;
             const double speed = length(m.velocity);
             if (limits.most > 0 && speed > limits.most) return false;
-            return speed >= speedLimit(min_speed, noise.sigma(m.baseline));
+            return speed >= speedLimit(min_speed, noise_here * noise.sigma(m.baseline));
         };
         const Measured* found = nullptr;
         if (moves(measured[i], limits.least)) {
@@ -222,7 +233,8 @@ void IndependentMotion::sortCorners(const RegisteredFrame& registered, const Fra
         }
         const bool parallax = found != nullptr && parallax_test_.explains(corner.current, found->velocity);
         if (verdicts != nullptr) {
-            CornerVerdict verdict = verdictOn(corner, measured[i], options_.find_slow ? slow[i] : Measured{}, noise);
+            CornerVerdict verdict =
+                verdictOn(corner, measured[i], options_.find_slow ? slow[i] : Measured{}, noise, noise_here);
             if (found != nullptr) {
                 verdict.fate = parallax ? CornerFate::parallax : CornerFate::moving;
                 verdict.parameter = parallax ? "motion.parallax_factor" : "";

@@ -78,7 +78,7 @@ class IndependentMotion {
     /// What the speed over `measured.baseline` frames must reach, and which parameter says so.
     double speedLimit(double min_speed, double sigma) const;
     CornerVerdict verdictOn(const Corner& corner, const Measured& measured, const Measured& slow,
-                            const BackgroundNoise& noise) const;
+                            const BackgroundNoise& noise, double noise_here) const;
 
     IndependentMotionOptions options_;
     SceneScale scale_;

@@ -31,6 +31,7 @@ IndependentMotionOptions IndependentMotionOptions::thesis() {
     options.find_slow = false;
     options.min_speed_px = 0;  // one threshold
     options.sigma_factor = 0;
+    options.noise_cell = 0;
     options.max_speed_m_s = 0;
     options.shadow.shadow_test = false;
     options.silhouettes.silhouettes = false;
@@ -61,6 +62,12 @@ void IndependentMotionOptions::describe(ParameterVisitor& visitor) {
                   "The speed must also exceed this many deviations of the background's residual speed, measured in "
                   "every frame. 0 switches it off.",
                   ""});
+    declare.real(
+        "motion.noise_cell", noise_cell, 0, 1,
+        {"widths",
+         "The background's residual speed is also measured in cells of this side, a share of the picture's "
+         "width: where the ground is stiller than elsewhere, slower vehicles are found. 0: the same everywhere.",
+         ""});
     declare.real("motion.max_speed", max_speed_m_s, 0, 500,
                  {"m/s",
                   "Faster corners are tracking errors. Used where the ground sampling distance is known; 0: no "

@@ -12,10 +12,11 @@ namespace eyrie {
 /// Parameters of independent motion detection (Teutsch §4.2).
 struct IndependentMotionOptions {
     int min_age = 5;             ///< frames a corner must have been tracked
-    int baseline = 12;           ///< frames over which the velocity is measured, as far as the corner is that old
+    int baseline = 16;           ///< frames over which the velocity is measured, as far as the corner is that old
     double min_speed_m_s = 1.0;  ///< lowest speed of a moving object
     double min_speed_px = 0.05;  ///< px/frame, lowest threshold whatever the scale
     double sigma_factor = 4;     ///< threshold in deviations of the background's residual speed; 0: not used
+    double noise_cell = 0.0625;  ///< side of the cells of that residual, share of the picture's width; 0: not by place
     double max_speed_m_s = 70;   ///< faster corners are tracking errors; only where GSD is known; 0: no limit
     bool follow_rate = true;     ///< fewer frames where the video has fewer a second, see atRate()
     bool follow_turns = true;    ///< the velocity of corners whose path bends is carried on to the present

@@ -33,13 +33,20 @@ double correlation(const std::vector<cv::Point>& pixels, const cv::Mat& from, co
     return both > 0 ? (ab - a * b / n) / std::sqrt(both) : 0;
 }
 
-/// The best of shifts `step` apart; of equal ones the first, row by row.
+/// Whether an area that is shifted lies in the picture with a pixel around it.
+bool fits(const std::vector<cv::Point>& pixels, const cv::Mat& picture, cv::Point shift) {
+    const cv::Rect inner(1, 1, picture.cols - 2, picture.rows - 2);
+    return std::all_of(pixels.begin(), pixels.end(), [&](cv::Point p) { return inner.contains(p + shift); });
+}
+
+/// The best of shifts `step` apart at which the area fits; of equal ones the first, row by row.
 cv::Point bestOf(const std::vector<cv::Point>& pixels, const cv::Mat& from, const cv::Mat& to, cv::Point around,
                  int reach, int step) {
     std::pair<double, cv::Point> best(-9, around);
     for (int dy = -reach; dy <= reach; dy += step) {
         for (int dx = -reach; dx <= reach; dx += step) {
             const cv::Point shift = around + cv::Point(dx, dy);
+            if (!fits(pixels, to, shift)) continue;
             const double found = correlation(pixels, from, to, shift);
             if (found > best.first + 1e-12) best = {found, shift};
         }
@@ -49,12 +56,9 @@ cv::Point bestOf(const std::vector<cv::Point>& pixels, const cv::Mat& from, cons
 
 std::optional<AreaMatch> slowMatch(const std::vector<cv::Point>& pixels, const cv::Mat& from, const cv::Mat& to,
                                    cv::Point around, int reach) {
-    if (pixels.empty()) return std::nullopt;
+    if (pixels.empty() || !fits(pixels, to, around)) return std::nullopt;
     double sum = 0, squares = 0;
     for (const cv::Point& p : pixels) {
-        for (const cv::Point far : {cv::Point(reach + 3, reach + 3), cv::Point(-reach - 3, -reach - 3)}) {
-            if (!cv::Rect({0, 0}, to.size()).contains(p + around + far)) return std::nullopt;
-        }
         sum += from.at<uchar>(p);
         squares += from.at<uchar>(p) * from.at<uchar>(p);
     }
@@ -234,14 +238,17 @@ struct SlowAreas {
         std::vector<cv::Point> pixels;
         cv::findNonZero(mask, pixels);
         const cv::Mat before = part(gap, place);
-        // As far as 40 m/s go, 4 to 40 px.
-        const int reach = std::clamp(int(std::ceil(40 / scale.gsd_m_per_px / scale.frame_rate_hz * gap)), 4, 40);
+        // As far as 40 m/s go, 4 to 100 px.
+        const int reach = std::clamp(int(std::ceil(40 / scale.gsd_m_per_px / scale.frame_rate_hz * gap)), 4, 100);
         const auto on = matchArea(pixels, before, picture(0), place.tl(), reach);
         if (!on || on->correlation < least) return std::nullopt;
         const cv::Point2d moved = on->shift - cv::Point2d(place.tl());
-        const cv::Rect whence(place.x - cvRound(moved.x) - 6, place.y - cvRound(moved.y) - 6, place.width + 12,
-                              place.height + 12);
-        const auto came = matchArea(pixels, before, part(2 * gap, whence), {6, 6}, 2);
+        // A tenth of the way on or two pixels the way back may differ by.
+        const int differ = std::max(2, cvRound(0.1 * cv::norm(moved)));
+        const int margin = differ + 4;
+        const cv::Rect whence(place.x - cvRound(moved.x) - margin, place.y - cvRound(moved.y) - margin,
+                              place.width + 2 * margin, place.height + 2 * margin);
+        const auto came = matchArea(pixels, before, part(2 * gap, whence), {margin, margin}, differ);
         if (!came || came->correlation < least) return std::nullopt;
         return moved;
     }
@@ -249,9 +256,11 @@ struct SlowAreas {
         std::vector<MotionVector> result;
         const double on_car =
             motion.corner_count / double(motion.image_size.area()) * 8.1 / (scale.gsd_m_per_px * scale.gsd_m_per_px);
-        if (on_car >= options.area_max_corners) return result;
-        const double least =
-            on_car < options.area_few_corners ? options.area_min_correlation : options.area_sure_correlation;
+        const bool slow_video = scale.frame_rate_hz < options.area_low_rate_hz;
+        if (on_car >= options.area_max_corners && !slow_video) return result;
+        const double least = slow_video                          ? options.area_low_rate_correlation
+                             : on_car < options.area_few_corners ? options.area_min_correlation
+                                                                 : options.area_sure_correlation;
         for (const auto& area : areas()) {
             const auto moved = shift(area, least);
             if (!moved || cv::norm(*moved) < std::max(options.area_min_shift, min_speed * gap)) continue;

@@ -182,20 +182,50 @@ class SlowMotion {
             return upperMedian(displacements) / 1.17741 / baseline;
         };
         motion.background_speed_sigma = sigma(std::max(options_.baseline, options_.min_age));
+        // Of the whole picture's noise, what the corners in the cells around show.
+        const double cell = options_.noise_cell * size.width;
+        const auto cellOf = [&](cv::Point2f place) {
+            const auto inside = [&](float at, int length) {
+                return std::clamp(int(double(at) / cell), 0, int(std::ceil(length / cell)) - 1);
+            };
+            return std::pair(inside(place.y, size.height), inside(place.x, size.width));
+        };
+        std::map<std::pair<int, int>, std::vector<double>> shares;
         for (const Corner& corner : registered.corners) {
+            const Measured& m = fast[corner.id];
+            const bool counts = 4 * background < int(registered.corners.size()) || corner.on_background;
+            if (cell > 0 && counts && m.baseline > 0 && sigma(m.baseline) > 0)
+                shares[cellOf(corner.current)].push_back(cv::norm(m.velocity) / 1.17741 / sigma(m.baseline));
+        }
+        std::map<std::pair<int, int>, double> noises;
+        const auto noiseHere = [&](cv::Point2f place) {
+            if (cell == 0) return 1.0;
+            const auto here = cellOf(place);
+            if (noises.count(here) > 0) return noises[here];
+            std::vector<double> around;
+            for (const auto& [there, some] : shares) {
+                if (std::abs(there.first - here.first) <= 1 && std::abs(there.second - here.second) <= 1)
+                    around.insert(around.end(), some.begin(), some.end());
+            }
+            const double share = around.size() < 60 ? 1 : upperMedian(around);
+            return noises[here] = share > 0.8 ? 1 : std::max(share, 0.3);
+        };
+        for (const Corner& corner : registered.corners) {
+            const double noise_here = noiseHere(corner.current);
+            const auto sigmaHere = [&](int baseline) { return noise_here * sigma(baseline); };
             const auto moves = [&](const Measured& m, double min_speed_m_s) {
                 const double speed = cv::norm(m.velocity);
                 if (m.baseline == 0 || corner.age < options_.min_age) return false;
                 if (scale_.gsd_known && options_.max_speed_m_s > 0 && speed > scale_.pxPerFrame(options_.max_speed_m_s))
                     return false;
                 return speed >= std::max({scale_.pxPerFrame(min_speed_m_s), options_.min_speed_px,
-                                          options_.sigma_factor * sigma(m.baseline)});
+                                          options_.sigma_factor * sigmaHere(m.baseline)});
             };
             const Measured* found = moves(fast[corner.id], options_.min_speed_m_s) ? &fast[corner.id]
                                     : options_.find_slow && moves(slow[corner.id], options_.slow_min_speed_m_s)
                                         ? &slow[corner.id]
                                         : nullptr;
-            verdicts.push_back(verdictOn(corner, fast[corner.id], slow[corner.id], sigma));
+            verdicts.push_back(verdictOn(corner, fast[corner.id], slow[corner.id], sigmaHere));
             if (found != nullptr) {
                 verdicts.back().fate = CornerFate::moving;
                 verdicts.back().parameter.clear();
@@ -231,6 +261,7 @@ TEST(SlowVectors, CornersMoveByWhatEveryPictureSaysOfThem) {
         options.baseline = variant == 1 ? 5 : variant == 2 ? 9 : variant == 3 ? 3 : 12;
         options.min_age = variant == 4 ? 8 : 5;
         options.sigma_factor = variant == 5 ? 0 : variant == 6 ? 9 : 4;
+        options.noise_cell = variant % 3 == 1 ? 0 : variant % 3 == 2 ? 0.25 : 0.0625;
         options.find_slow = variant % 3 == 0;
         options.follow_turns = variant != 7;
         options.local_background.local_background = variant % 4 == 2;
