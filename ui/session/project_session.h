@@ -209,6 +209,7 @@ class ProjectSession : public QObject {
 
     void beginOpening(Pending pending);
     void mediaOpened(int ticket, const OpenedVideo& video);
+    bool isOfAnother(const Pending& pending, const VideoInfo& video) const;
     void mediaFailed(int ticket, const QString& message);
     void projectOpened(const ProjectLists& lists);
     void projectFailed(const std::filesystem::path& project, const QString& message);

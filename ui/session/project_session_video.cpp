@@ -75,6 +75,13 @@ void ProjectSession::mediaOpened(int ticket, const OpenedVideo& video) {
                          whyAnotherVideo(pending.media.identity, video.info, *pending.sequence));
         return;
     }
+    if (pending.purpose == Purpose::moved && isOfAnother(pending, video.info)) {
+        showWithoutVideo(*pending.sequence, pending.run,
+                         tr("%1 is another video of this project, with runs and labels of its own. Put the video of "
+                            "these results at a place of its own, and locate it there")
+                             .arg(QString::fromStdString(pending.media.identity)));
+        return;
+    }
     const bool same_video = pending.purpose == Purpose::other_rate || pending.purpose == Purpose::remembered_rate;
     if (running() && !same_video) stopRun();
     adoptVideo(pending.media, video, same_video);
@@ -102,6 +109,14 @@ void ProjectSession::mediaOpened(int ticket, const OpenedVideo& video) {
     emit changed(SessionChange::runs);
     awaitProject(false);
     reader_.openFor(pending.media.name, pending.media.identity, video.info, pending.project);
+}
+
+/// Whether the project knows another video at the place where one was found.
+bool ProjectSession::isOfAnother(const Pending& pending, const VideoInfo& video) const {
+    return std::any_of(sequences_.begin(), sequences_.end(), [&](const SequenceRecord& sequence) {
+        return sequence.id != pending.sequence->id && sequence.path == pending.media.identity &&
+               sequence.size == video.size;
+    });
 }
 
 void ProjectSession::mediaFailed(int ticket, const QString& message) {
