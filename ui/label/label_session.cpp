@@ -40,6 +40,7 @@ void LabelSession::setWanted(bool wanted) {
 }
 
 void LabelSession::refreshOpen() {
+    if (session_.project().empty()) close();  // what is done now would be lost: it is becoming another file
     const auto& video = session_.video();
     if (!wanted_ || !video || !session_.media() || session_.project().empty() || session_.opening()) return;
     if (project_path_ == session_.project() && sequence_.path == session_.media()->identity) return;

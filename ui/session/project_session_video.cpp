@@ -104,6 +104,7 @@ void ProjectSession::mediaOpened(int ticket, const OpenedVideo& video) {
             break;
     }
     project_open_ = false;
+    moved_from_.reset();
     takeLists({});
     useRun(std::nullopt);
     emit changed(SessionChange::runs);
@@ -135,6 +136,7 @@ void ProjectSession::mediaFailed(int ticket, const QString& message) {
 void ProjectSession::adoptVideo(Media media, const OpenedVideo& video, bool keep_place) {
     const FrameIndex place = keep_place ? std::min(current_frame_, std::max(0, video.info.frame_count - 1)) : 0;
     if (!keep_place) {
+        keepWritten();
         // A run over the former video may still be stopping: its frames are not of this one.
         setFollowing(false);
         run_project_.clear();
@@ -158,6 +160,7 @@ void ProjectSession::adoptVideo(Media media, const OpenedVideo& video, bool keep
 
 /// A project is on its way from now on; what was asked for before is not wanted any more.
 void ProjectSession::awaitProject(bool opens_video) {
+    endMove();
     ++projects_due_;
     project_opens_video_ = opens_video;
     project_overtaken_ = false;
@@ -174,6 +177,8 @@ bool ProjectSession::isAwaited() {
 void ProjectSession::projectOpened(const ProjectLists& lists) {
     if (!isAwaited()) return;
     reader_.takeUp();
+    keepWritten();
+    moved_from_.reset();
     const bool opens_video = std::exchange(project_opens_video_, false);
     project_ = lists.project;
     project_open_ = true;
@@ -220,6 +225,7 @@ void ProjectSession::openVideoOfProject() {
 }
 
 void ProjectSession::closeVideo() {
+    keepWritten();
     loader_.closeMedia();
     media_.reset();
     video_.reset();
@@ -233,6 +239,8 @@ void ProjectSession::closeVideo() {
 }
 
 void ProjectSession::closeProject() {
+    endMove();
+    moved_from_.reset();
     cancelOpening();
     project_opens_video_ = false;
     project_overtaken_ = projects_due_ > 0;
@@ -339,6 +347,7 @@ void ProjectSession::adoptLive(const RunRecord& record) {
     video.info.size = record.sequence.size;
     video.info.frame_rate_hz = record.sequence.frame_rate_hz;
     project_open_ = false;
+    moved_from_.reset();
     takeLists({});
     useRun(std::nullopt);
     adoptVideo(mediaOf(record.sequence), video, false);
