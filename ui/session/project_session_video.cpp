@@ -176,8 +176,8 @@ bool ProjectSession::isAwaited() {
 
 void ProjectSession::projectOpened(const ProjectLists& lists) {
     if (!isAwaited()) return;
-    reader_.takeUp();
     keepWritten();
+    reader_.takeUp();
     moved_from_.reset();
     const bool opens_video = std::exchange(project_opens_video_, false);
     project_ = lists.project;

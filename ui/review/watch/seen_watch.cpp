@@ -27,8 +27,7 @@ SeenWatch::SeenWatch(ProjectSession& session, VideoView& canvas, QWidget& window
     window_.installEventFilter(this);
     whenAny(&canvas_, this, &SeenWatch::showFrame, &VideoView::frameGiven);
     followSession(session_, this,
-                  {{SessionChange::keep_written, [this] { flush(); }},
-                   {SessionChange::video, [this] { told_ = false; }},
+                  {{SessionChange::video, [this] { told_ = false; }},
                    {{SessionChange::video, SessionChange::project, SessionChange::run_data}, [this] {
                         recorder_.interrupt(wallSeconds());
                         flush();
