@@ -347,6 +347,7 @@ void MainWindow::wireCanvas() {
 
 void MainWindow::wireSession() {
     const auto stay_open = [this] {
+        if (!write_wait_.waiting()) return;
         write_wait_.cancel();
         closing_ = false;
         messages_->dismissTopic(kClosingTopic);

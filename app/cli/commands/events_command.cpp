@@ -133,9 +133,7 @@ int tellLikeTracks(const ListArguments& arguments, const std::stop_token& stop) 
     tellUnregistered(stored);
     const GroundStretches ground(stored.footage);
     std::vector<TrackLikeness> found = tracksLike(stored, ground, arguments.like, choice.options);
-    if (counts.looks) {
-        compareLooks(found, looksIn(run, stored, stop), arguments.like);
-    }
+    if (counts.looks) compareLooks(found, looksIn(run, stored, stop), arguments.like);
     if (stop.stop_requested()) return exit_stopped;
     orderBy(counts, found);
     if (!arguments.csv.empty()) writeLikenessCsv(arguments.csv, found, stored);
