@@ -320,10 +320,10 @@ TEST_F(Outputs, CtrlCWhileSomethingIsListedIsAStopToo) {
         for (int i = 0; i < 5; ++i) video.write(cv::Mat(48, 64, CV_8UC3, cv::Scalar::all(40 + 20 * i)));
         video.finish();
     }
-    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
-             {"info", at("short.mp4")},
-             {"info", at("p.eyrie")},
-             {"events", "--project", at("p.eyrie"), "--csv", at("events.csv")}}) {
+    for (const std::vector<std::string>& words :
+         std::vector<std::vector<std::string>>{{"info", at("short.mp4")},
+                                               {"info", at("p.eyrie")},
+                                               {"events", "--project", at("p.eyrie"), "--csv", at("events.csv")}}) {
         const auto result = stoppedAtOnce(words);
         EXPECT_EQ(result.exit_code, 130) << words[0] << " " << words[1] << ": " << result.errors;
         EXPECT_EQ(result.output, "") << "half a list is none";

@@ -66,9 +66,10 @@ std::string whyNothing(const RunFacts& facts) {
         case NothingFollowed::no_frames:
             return "no frame was processed";
         case NothingFollowed::too_few_frames:
-            return formatted("%d frame%s %s too few for a track, which takes at least %d (tracking.confirm_hits decides)",
-                             facts.counts.frames, facts.counts.frames == 1 ? "" : "s",
-                             facts.counts.frames == 1 ? "is" : "are", facts.frames_needed);
+            return formatted(
+                "%d frame%s %s too few for a track, which takes at least %d (tracking.confirm_hits decides)",
+                facts.counts.frames, facts.counts.frames == 1 ? "" : "s", facts.counts.frames == 1 ? "is" : "are",
+                facts.frames_needed);
         case NothingFollowed::not_registered:
             return "no frame could be registered onto the one before it, so no motion could be measured";
         case NothingFollowed::no_motion:
