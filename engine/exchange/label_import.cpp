@@ -102,27 +102,26 @@ std::int64_t cutAtEnd(LabelFile& labels, int frame_count) {
 
 /// Takes out what the project has already; answers how many objects and regions.
 int leaveDoublesOut(ImportedLabels& imported, const LabelFile& labels, const CameraMotion& camera,
-                    const AnnotationStore& store, double tolerance_px) {
+                    const AnnotationSet& present, double tolerance_px) {
     // What was imported before is known by its keyframes only, which are as exact as the tolerance.
     constexpr double kSame_px = 1;
     const double within = kSame_px + tolerance_px;
     int left_out = 0;
     const int step = imported.annotations.objects.empty() ? 0 : imported.id_step;
-    for (const auto& [id, present] : alreadyLabelled(labels, store.annotations(), camera, within))
+    for (const auto& [id, there] : alreadyLabelled(labels, present, camera, within))
         left_out += static_cast<int>(imported.annotations.objects.erase(id + step));
-    left_out += static_cast<int>(std::erase_if(imported.annotations.regions, [&](const auto& entry) {
-        return hasRegion(store.annotations(), entry.second, kSame_px);
-    }));
+    left_out += static_cast<int>(std::erase_if(
+        imported.annotations.regions, [&](const auto& entry) { return hasRegion(present, entry.second, kSame_px); }));
     return left_out;
 }
 
 constexpr ObjectId kHighestKeptId = 2'000'000'000;
 
-AnnotationEdit editFor(const ImportedLabels& imported, AnnotationStore& store) {
+AnnotationEdit editFor(const ImportedLabels& imported, const ImportGround& ground) {
     AnnotationEdit edit;
     const auto& objects = imported.annotations.objects;
     edit.name = "Import " + std::to_string(objects.size()) + (objects.size() == 1 ? " object" : " objects");
-    const ObjectId first_free = store.newObjectId();
+    const ObjectId first_free = ground.first_object;
     // An id near the largest number would leave none for objects to come.
     const bool keep_ids = first_free == 1 && (objects.empty() || objects.rbegin()->first <= kHighestKeptId);
     ObjectId next = first_free;
@@ -131,20 +130,21 @@ AnnotationEdit editFor(const ImportedLabels& imported, AnnotationStore& store) {
         added.id = keep_ids ? id : next++;
         edit.objects.push_back({std::nullopt, std::move(added)});
     }
+    int next_region = ground.first_region;
     for (const auto& [id, region] : imported.annotations.regions) {
         IgnoreRegion added = region;
-        added.id = store.newRegionId();
+        added.id = next_region++;
         edit.regions.push_back({std::nullopt, std::move(added)});
     }
-    std::vector<ObjectClass> classes = store.annotations().classes;
+    std::vector<ObjectClass> classes = ground.present.classes;
     for (const ObjectClass& wanted : imported.annotations.classes) {
         const bool known = std::any_of(classes.begin(), classes.end(),
                                        [&](const ObjectClass& entry) { return entry.name == wanted.name; });
         if (!known) classes.push_back(wanted);
     }
-    if (classes.size() != store.annotations().classes.size()) {
+    if (classes.size() != ground.present.classes.size()) {
         Change<std::vector<ObjectClass>> change;
-        change.before = store.annotations().classes;
+        change.before = ground.present.classes;
         change.after = classes;
         edit.classes = change;
     }
@@ -154,7 +154,7 @@ AnnotationEdit editFor(const ImportedLabels& imported, AnnotationStore& store) {
 }  // namespace
 
 LabelImport planImport(LabelFile labels, const SequenceRecord& sequence, const CameraMotion& camera,
-                       AnnotationStore& store, double tolerance_px, Doubles doubles, LooseBoxes loose) {
+                       const ImportGround& ground, double tolerance_px, Doubles doubles, LooseBoxes loose) {
     LabelImport result;
     const std::int64_t behind = cutAtEnd(labels, sequence.frame_count);
     for (const auto& [frame, records] : labels.boxes) result.boxes += static_cast<int>(records.size());
@@ -173,7 +173,8 @@ LabelImport planImport(LabelFile labels, const SequenceRecord& sequence, const C
                                           std::to_string(result.loose.objects) + " objects; please check them"
                                     : "each is an object of one frame, unless they are linked"));
     }
-    if (doubles == Doubles::skip) result.doubles = leaveDoublesOut(imported, labels, camera, store, tolerance_px);
+    if (doubles == Doubles::skip)
+        result.doubles = leaveDoublesOut(imported, labels, camera, ground.present, tolerance_px);
     if (result.doubles > 0) {
         result.notes.push_back(std::to_string(result.doubles) +
                                " objects or regions are labelled already with the same boxes, and were left out");
@@ -199,9 +200,14 @@ LabelImport planImport(LabelFile labels, const SequenceRecord& sequence, const C
     result.objects = static_cast<int>(imported.annotations.objects.size());
     result.regions = static_cast<int>(imported.annotations.regions.size());
     if (result.objects == 0 && result.regions == 0) return result;  // classes alone are no import
-    result.edit = editFor(imported, store);
+    result.edit = editFor(imported, ground);
     for (const auto& change : result.edit.objects) result.keyframes += static_cast<int>(change.after->keyframes.size());
     return result;
+}
+
+LabelImport planImport(LabelFile labels, const SequenceRecord& sequence, const CameraMotion& camera,
+                       AnnotationStore& store, double tolerance_px, Doubles doubles, LooseBoxes loose) {
+    return planImport(std::move(labels), sequence, camera, ImportGround(store), tolerance_px, doubles, loose);
 }
 
 }  // namespace eyrie

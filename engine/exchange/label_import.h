@@ -24,12 +24,28 @@ struct LabelImport {
     std::vector<std::string> notes;
 };
 
+/// What an import adds to: labels as they are, and the first numbers that are free. A value, so that a plan can be made
+/// on any thread while the store goes its way.
+struct ImportGround {
+    /// Takes numbers of the store.
+    explicit ImportGround(AnnotationStore& store)
+        : present(store.annotations()), first_object(store.newObjectId()), first_region(store.newRegionId()) {}
+
+    AnnotationSet present;
+    ObjectId first_object;  ///< this and all above; 1 in a project that never had an object
+    int first_region;       ///< the same
+};
+
 /// Labels of a file as an edit of the video's labels. Few keyframes are chosen whose interpolation over the ground
 /// stays within `tolerance_px` of every box; 0 makes every box a keyframe. Nothing that is there is touched. Ids of the
-/// file are kept in a project that never had an object; otherwise `store` hands out new ones. Boxes that
+/// file are kept in a project that never had an object; otherwise they are the next free ones of `ground`. Boxes that
 /// belong to no object become objects of their own, as `loose` says. Boxes behind the video's last frame are left out;
 /// notes say how many. So are, unless `doubles` says
 /// otherwise, objects and regions that the project has already, within a pixel: a file imported twice adds nothing.
+LabelImport planImport(LabelFile labels, const SequenceRecord& sequence, const CameraMotion& camera,
+                       const ImportGround& ground, double tolerance_px, Doubles doubles = Doubles::skip,
+                       LooseBoxes loose = LooseBoxes::single);
+/// The same for labels that nobody changes meanwhile.
 LabelImport planImport(LabelFile labels, const SequenceRecord& sequence, const CameraMotion& camera,
                        AnnotationStore& store, double tolerance_px, Doubles doubles = Doubles::skip,
                        LooseBoxes loose = LooseBoxes::single);

@@ -48,5 +48,36 @@ TEST(Proposals, AreCutToARange) {
     EXPECT_TRUE(cutToRange(proposal.object, 160, 180, flying).keyframes.empty());
 }
 
+TEST(Proposals, HaveTheClassOfWhatIsLabelledOfTheirVehicle) {
+    AnnotationSet labelled;
+    // Its vehicle is labelled up to frame 60 as a truck; another one drives far beside it as a bus.
+    LabelledObject before = accepted(proposeTracks({track(1, 0, 60, 50)}, {}, flying)[0], 4, 0);
+    before.object_class = "truck";
+    LabelledObject beside = accepted(proposeTracks({track(2, 0, 150, 300)}, {}, flying)[0], 5, 0);
+    beside.object_class = "bus";
+    labelled.objects = {{4, before}, {5, beside}};
+    const auto classOf = [&](const DenseTrack& dense, const char* drawn) {
+        return classOfProposal(proposeTracks({dense}, labelled, flying)[0], labelled, flying, drawn);
+    };
+    EXPECT_EQ(classOf(track(3, 70, 150, 50), "car"), "truck") << "it begins where the truck ended";
+    EXPECT_EQ(classOf(track(3, 50, 150, 50), "car"), "truck") << "it is the truck in some frames";
+    EXPECT_EQ(classOf(track(3, 70, 150, 150), "van"), "van") << "nothing is known of it";
+}
+
+TEST(Proposals, TakeTheDrawnClassUnlessTheRunSaysOtherwise) {
+    DenseTrack dense = track(3, 0, 150, 50);
+    const auto classOf = [&](TrackClass track_class, const char* drawn) {
+        dense.track_class = track_class;
+        return classOfProposal(proposeTracks({dense}, {}, flying)[0], {}, flying, drawn);
+    };
+    EXPECT_EQ(classOf(TrackClass::unknown, "person"), "person");
+    EXPECT_EQ(classOf(TrackClass::vehicle, "bus"), "bus");
+    EXPECT_EQ(classOf(TrackClass::vehicle, "person"), "car");
+    EXPECT_EQ(classOf(TrackClass::two_wheeler, "bicycle"), "bicycle");
+    EXPECT_EQ(classOf(TrackClass::two_wheeler, "car"), "motorcycle");
+    EXPECT_EQ(classOf(TrackClass::person, "car"), "person");
+    EXPECT_EQ(classOf(TrackClass::person, "tractor"), "tractor") << "a class of one's own is of any kind";
+}
+
 }  // namespace
 }  // namespace eyrie::proposals_test

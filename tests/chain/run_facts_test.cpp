@@ -66,12 +66,35 @@ TEST(RunFacts, theFirstStepThatLeftNothingIsNamed) {
     test::MemorySource ground(empty);
     EXPECT_EQ(facts(ground, sceneScale(ground.info(), 0.2)).nothing, NothingFollowed::no_motion);
 
-    const test::MovingScene scene;
-    test::MemorySource source(scene);
+    test::MovingScene passing;  // a vehicle that has left the picture after some forty frames
+    passing.frames = 80;
+    passing.vehicles = {{{200, 120}, {4.3, 0.6}, {24, 11}}};
+    test::MemorySource source(passing);
     ChainOptions options;
     options.tracking.confirm_hits = 64;
     options.tracking.confirm_window = 64;
     EXPECT_EQ(facts(source, sceneScale(source.info(), 0.2), options).nothing, NothingFollowed::none_confirmed);
+}
+
+TEST(RunFacts, tooShortAClipForATrackIsNoMatterOfSpeed) {
+    test::MovingScene scene;
+    const int hits = ChainOptions().tracking.confirm_hits;
+    scene.frames = hits;
+    test::MemorySource source(scene);
+    const RunFacts found = facts(source, sceneScale(source.info(), 0.2));
+    EXPECT_EQ(found.nothing, NothingFollowed::too_few_frames);
+    EXPECT_EQ(found.frames_needed, hits + 1) << "in the first frame nothing can have moved";
+
+    scene.frames = hits + 1;
+    scene.vehicles.clear();
+    test::MemorySource enough(scene);
+    EXPECT_EQ(facts(enough, sceneScale(enough.info(), 0.2)).nothing, NothingFollowed::no_motion);
+
+    RunFacts coarse = found;
+    coarse.gsd_m_per_px = 5;
+    EXPECT_EQ(doubtfulScaleOf(coarse), "") << "the scale is not the cause";
+    coarse.nothing = NothingFollowed::no_motion;
+    EXPECT_NE(doubtfulScaleOf(coarse), "");
 }
 
 TEST(RunFacts, theScaleComesFromWhereTheRunWasToldItDoes) {

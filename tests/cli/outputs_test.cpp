@@ -314,6 +314,23 @@ TEST_F(Outputs, CtrlCWhileAVideoIsIndexedIsAStopAndNoFaultOfTheVideo) {
     EXPECT_FALSE(fs::exists(at("n.eyrie")));
 }
 
+TEST_F(Outputs, CtrlCWhileSomethingIsListedIsAStopToo) {
+    {
+        VideoWriter video(at("short.mp4"), {64, 48});
+        for (int i = 0; i < 5; ++i) video.write(cv::Mat(48, 64, CV_8UC3, cv::Scalar::all(40 + 20 * i)));
+        video.finish();
+    }
+    for (const std::vector<std::string>& words :
+         std::vector<std::vector<std::string>>{{"info", at("short.mp4")},
+                                               {"info", at("p.eyrie")},
+                                               {"events", "--project", at("p.eyrie"), "--csv", at("events.csv")}}) {
+        const auto result = stoppedAtOnce(words);
+        EXPECT_EQ(result.exit_code, 130) << words[0] << " " << words[1] << ": " << result.errors;
+        EXPECT_EQ(result.output, "") << "half a list is none";
+    }
+    EXPECT_FALSE(fs::exists(at("events.csv")));
+}
+
 TEST_F(Outputs, CtrlCEndsAnExportAndLeavesNothing) {
     const auto result =
         stoppedAtOnce({"export", "--project", at("p.eyrie"), "--format", "native", "--out", at("tracks.csv")});

@@ -167,6 +167,7 @@ TEST_F(ProjectFileTest, AnOlderProjectIsBroughtUpToDateEvenForReading) {
                   "DROP TABLE unfinished_frame",
                   "DROP TABLE control_point",
                   "DROP TABLE dropped_state",
+                  "DROP TABLE rejected_proposal",
                   "ALTER TABLE track DROP COLUMN score",
                   "ALTER TABLE track DROP COLUMN x_sum",
                   "ALTER TABLE track DROP COLUMN y_sum",
@@ -396,7 +397,7 @@ TEST_F(ProjectFileTest, StatesOfBeforeSchemaTwentyAreReadAsTheyWere) {
                   "ALTER TABLE track DROP COLUMN x_sum", "ALTER TABLE track DROP COLUMN y_sum",
                   "ALTER TABLE sequence DROP COLUMN start_utc", "DROP INDEX doubtful_state_of_track",
                   "DROP VIEW v_detections", "DROP VIEW v_track_evidence", "ALTER TABLE detection DROP COLUMN decision",
-                  "ALTER TABLE track_evidence DROP COLUMN decision",
+                  "ALTER TABLE track_evidence DROP COLUMN decision", "DROP TABLE rejected_proposal",
                   "CREATE INDEX track_state_of_track ON track_state (run_id, track_id, frame)",
                   "PRAGMA user_version = 19"});
     ProjectFile project = ProjectFile::open(path_);

@@ -87,4 +87,27 @@ TEST_F(RunCountsTest, ARelocatedVideoKeepsItsRuns) {
     EXPECT_EQ(store.run(run)->sequence.id, sequence);
 }
 
+TEST_F(RunCountsTest, AVideoIsNotRelocatedToThePlaceOfAnother) {
+    const int run = test::writeSampleProject(path_, 2);
+    ProjectFile project = ProjectFile::open(path_);
+    const RunStore store(project);
+    const SequenceRecord before = store.run(run)->sequence;
+    SequenceRecord other = before;
+    other.path = "/elsewhere/other.mp4";
+    ensureSequence(project, other);
+    try {
+        relocateSequence(project, before.id, other.path);
+        FAIL() << "two videos of one path";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::parameter);
+        for (const std::string& named : {path_.string(), other.path, before.path})
+            EXPECT_NE(std::string(error.what()).find(named), std::string::npos) << error.what();
+    }
+    EXPECT_EQ(store.run(run)->sequence.path, before.path);
+    other.size.width += 2;
+    other.path = "/elsewhere/larger.mp4";
+    ensureSequence(project, other);
+    EXPECT_NO_THROW(relocateSequence(project, before.id, other.path)) << "it is told apart by its size";
+}
+
 }  // namespace eyrie::run_counts_test

@@ -5,6 +5,7 @@
 
 #include "exchange/project_labels.h"
 #include "session/project/person_name.h"
+#include "store/labels/rejected_proposals.h"
 #include "widgets/wiring.h"
 
 namespace eyrie::ui {
@@ -39,6 +40,7 @@ void LabelSession::setWanted(bool wanted) {
 }
 
 void LabelSession::refreshOpen() {
+    if (session_.project().empty()) close();  // what is done now would be lost: it is becoming another file
     const auto& video = session_.video();
     if (!wanted_ || !video || !session_.media() || session_.project().empty() || session_.opening()) return;
     if (project_path_ == session_.project() && sequence_.path == session_.media()->identity) return;
@@ -193,6 +195,14 @@ bool LabelSession::apply(const AnnotationEdit& edit) {
     if (selected_ && object(*selected_) == nullptr) selected_.reset();
     if (before != selection_) emit selectionChanged();
     return true;
+}
+
+bool LabelSession::rejectProposals(int run_id, const std::vector<TrackId>& tracks) {
+    return guarded([&] { eyrie::rejectProposals(*project_, run_id, tracks, person().toStdString()); });
+}
+
+bool LabelSession::offerProposalsAgain(int run_id) {
+    return guarded([&] { forgetRejectedProposals(*project_, run_id); });
 }
 
 void LabelSession::selectOf(const AnnotationEdit& edit) {

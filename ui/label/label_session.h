@@ -59,6 +59,10 @@ class LabelSession : public QObject {
     /// Carries an edit out, commits it and tells everyone. What goes wrong is told by problem(); answers whether it was
     /// done.
     bool apply(const AnnotationEdit& edit);
+    /// Tracks of a run are not to be offered as objects any more, or all of it are again. They answer as apply() does;
+    /// no steps that can be undone.
+    bool rejectProposals(int run_id, const std::vector<TrackId>& tracks);
+    bool offerProposalsAgain(int run_id);
     void undo();
     void redo();
     bool canUndo() const { return canEdit() && store_->canUndo(); }

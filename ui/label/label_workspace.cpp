@@ -140,7 +140,8 @@ void LabelWorkspace::wireLabels() {
     connect(labels_, &LabelSession::refused, this, &LabelWorkspace::tellRight);
     connect(labels_, &LabelSession::selectionChanged, this, &LabelWorkspace::selectionChanged);
     whenChanged(around_.session, this,
-                {{SessionChange::picture, [this] { pictureChanged(); }},
+                {{SessionChange::keep_written, [this] { inspector_->keepWritten(); }},
+                 {SessionChange::picture, [this] { pictureChanged(); }},
                  {{SessionChange::current_run, SessionChange::run_started, SessionChange::video},
                   [this] { around_.messages.dismissTopic(kNoRunTopic); }},
                  {SessionChange::frame, [this] {

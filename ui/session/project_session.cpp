@@ -28,6 +28,8 @@ ProjectSession::ProjectSession(QObject* parent) : QObject(parent) {
             [this](FrameIndex, const QString& text) { emit problem(text); });
     connect(&reader_, &ProjectReader::opened, this, &ProjectSession::projectOpened);
     connect(&reader_, &ProjectReader::openFailed, this, &ProjectSession::projectFailed);
+    connect(&reader_, &ProjectReader::copiedForMove, this, &ProjectSession::beginMove);
+    connect(&reader_, &ProjectReader::moveFailed, this, &ProjectSession::moveFailed);
     connect(&reader_, &ProjectReader::movedTo, this, &ProjectSession::projectMovedTo);
     connect(&reader_, &ProjectReader::read, this, &ProjectSession::listsRead);
     connect(&reader_, &ProjectReader::runRead, this, &ProjectSession::runRead);
@@ -109,6 +111,7 @@ void ProjectSession::projectFailed(const fs::path&, const QString& message) {
 }
 
 void ProjectSession::saveProjectCopy(const fs::path& target) {
+    keepWritten();
     if (project_open_) reader_.saveCopy(target);
 }
 
@@ -120,14 +123,40 @@ void ProjectSession::saveProjectAs(const fs::path& target) {
         return;
     }
     if (project_open_)
-        reader_.saveAs(target);
+        reader_.copyForMove(target);
     else if (media_ && video_) {
         awaitProject(false);
         reader_.openFor(media_->name, media_->identity, *video_, target);
     }
 }
 
+/// The copy is made. What was done meanwhile, and what is being written, goes into the former file; then nobody writes
+/// there any more, so that the rest can be copied.
+void ProjectSession::beginMove() {
+    if (!project_open_ || moved_from_ || running()) return;
+    keepWritten();
+    moved_from_ = std::exchange(project_, {});
+    emit changed(SessionChange::project);
+    move_wait_.begin([this](bool) { reader_.move(); });
+}
+
+/// Something else is asked for, which comes after.
+void ProjectSession::endMove() {
+    if (!move_wait_.waiting()) return;
+    move_wait_.cancel();
+    reader_.move();
+}
+
+void ProjectSession::moveFailed(const QString& message) {
+    emit problem(message);
+    if (!moved_from_) return;
+    project_ = *std::exchange(moved_from_, std::nullopt);
+    emit changed(SessionChange::project);
+    useRun(current_run_);
+}
+
 void ProjectSession::projectMovedTo(const ProjectLists& lists) {
+    if (!std::exchange(moved_from_, std::nullopt)) return;  // it was closed meanwhile
     project_ = lists.project;
     takeLists(lists);
     emit changed(SessionChange::project);
@@ -165,12 +194,13 @@ void ProjectSession::showRun(int run_id) {
 
 void ProjectSession::useRun(std::optional<int> run_id) {
     if (run_id && findRun(*run_id) == nullptr) run_id.reset();
+    if (run_id != current_run_) keepWritten();
     current_run_ = run_id;
     run_data_.reset();
     selectTrack(std::nullopt);
     emit changed(SessionChange::current_run);
     if (run_id) {
-        loader_.useRun(RunReference{project_, *run_id}, kTrailLength);
+        loader_.useRun(RunReference{fileOfProject(), *run_id}, kTrailLength);
         reader_.readRun(*run_id, corrected_);
     } else {
         loader_.useRun(std::nullopt, 0);
@@ -218,7 +248,7 @@ void ProjectSession::runRead(const std::shared_ptr<const RunData>& run) {
     const bool other_tracks = !run->corrected->empty() || (run_data_ && !run_data_->corrected->empty());
     run_data_ = run;
     if (other_tracks) {
-        loader_.useRun(RunReference{project_, run->record.id, run->corrected}, kTrailLength);
+        loader_.useRun(RunReference{fileOfProject(), run->record.id, run->corrected}, kTrailLength);
         request();
     }
     emit changed(SessionChange::run_data);
@@ -244,6 +274,10 @@ void ProjectSession::startRun() {
         return;
     }
     if (!media_ || running()) return;
+    if (moved_from_) {
+        emit problem(tr("The project is being saved under another name. Start the run when that is done."));
+        return;
+    }
     if (!project_open_) {
         emit problem(
             tr("There is no project to store the run in. Save one where you can write (File ▸ Save project as)."));
@@ -267,7 +301,8 @@ void ProjectSession::startRun() {
 bool ProjectSession::canContinue(int run_id) const {
     const RunRecord* run = findRun(run_id);
     const bool ended_early = std::find(resumable_runs_.begin(), resumable_runs_.end(), run_id) != resumable_runs_.end();
-    return ended_early && run != nullptr && !running() && media_ && !missing_ && run->sequence.path == media_->identity;
+    return ended_early && run != nullptr && !running() && !moved_from_ && media_ && !missing_ &&
+           run->sequence.path == media_->identity;
 }
 
 void ProjectSession::continueRun(int run_id) {

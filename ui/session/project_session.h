@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "session/background/written_wait.h"
 #include "session/frames/playback.h"
 #include "session/frames/result_loader.h"
 #include "session/project/media.h"
@@ -22,11 +23,12 @@ namespace eyrie::ui {
 
 /// What of a session's state is another than it was. What it is now, the session tells.
 enum class SessionChange {
-    video,    ///< another one, or none
-    length,   ///< more of the same video: it is being recorded
-    project,  ///< another one, or none
-    opened,   ///< video and project are open
-    runs,     ///< the list of runs, givenStart() and givenControl() were read anew
+    keep_written,  ///< nothing yet, but it is about to be: what is being written is kept now, where it belongs
+    video,         ///< another one, or none
+    length,        ///< more of the same video: it is being recorded
+    project,       ///< another one, or none
+    opened,        ///< video and project are open
+    runs,          ///< the list of runs, givenStart() and givenControl() were read anew
     current_run,
     run_data,  ///< the lists of the current run were read
     frame,     ///< currentFrame()
@@ -60,8 +62,10 @@ class ProjectSession : public QObject {
     void open(const std::vector<std::filesystem::path>& files);
     /// Writes a copy; work goes on in the project.
     void saveProjectCopy(const std::filesystem::path& target);
-    /// Writes a copy and goes on working in it. Not while a run works.
+    /// Writes a copy and goes on working in it, with all that is done until then. Not while a run works.
     void saveProjectAs(const std::filesystem::path& target);
+    /// Has what is being written kept, as before the window is closed.
+    void keepWritten() { emit changed(SessionChange::keep_written); }
     /// Reads the video anew with this many frames per second, and keeps the rate in the project.
     void setFrameRate(double frames_per_second);
     /// The video as the project keeps it; only with a video.
@@ -209,12 +213,18 @@ class ProjectSession : public QObject {
 
     void beginOpening(Pending pending);
     void mediaOpened(int ticket, const OpenedVideo& video);
+    bool isOfAnother(const Pending& pending, const VideoInfo& video) const;
     void mediaFailed(int ticket, const QString& message);
     void projectOpened(const ProjectLists& lists);
     void projectFailed(const std::filesystem::path& project, const QString& message);
     void awaitProject(bool opens_video);
     bool isAwaited();
+    void beginMove();
+    void endMove();
+    /// Where what the project holds can be read.
+    const std::filesystem::path& fileOfProject() const { return moved_from_ ? *moved_from_ : project_; }
     void projectMovedTo(const ProjectLists& lists);
+    void moveFailed(const QString& message);
     void takeLists(const ProjectLists& lists);
     void openVideoOfProject();
     void closeVideo();
@@ -253,9 +263,10 @@ class ProjectSession : public QObject {
     std::vector<std::int64_t> times_us_;
     std::filesystem::path project_;
     bool project_open_ = false;
-    bool project_opens_video_ = false;  ///< the project that is being opened decides which video to show
-    int projects_due_ = 0;              ///< that are being opened; what was asked for last counts
-    bool project_overtaken_ = false;    ///< something else was asked for since
+    bool project_opens_video_ = false;                 ///< the project that is being opened decides which video to show
+    int projects_due_ = 0;                             ///< that are being opened; what was asked for last counts
+    bool project_overtaken_ = false;                   ///< something else was asked for since
+    std::optional<std::filesystem::path> moved_from_;  ///< while no project is shown as it becomes another file
     std::vector<RunRecord> runs_;
     std::optional<RunRecord> last_removed_run_;
     std::vector<int> resumable_runs_;
@@ -284,6 +295,7 @@ class ProjectSession : public QObject {
     ResultLoader loader_;
     std::shared_ptr<CorrectedTracksMemo> corrected_tracks_ = std::make_shared<CorrectedTracksMemo>();
     ProjectReader reader_{corrected_tracks_};
+    WrittenWait move_wait_;  ///< for what goes into the former file still
     RunController controller_;
 };
 

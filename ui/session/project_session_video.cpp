@@ -75,6 +75,13 @@ void ProjectSession::mediaOpened(int ticket, const OpenedVideo& video) {
                          whyAnotherVideo(pending.media.identity, video.info, *pending.sequence));
         return;
     }
+    if (pending.purpose == Purpose::moved && isOfAnother(pending, video.info)) {
+        showWithoutVideo(*pending.sequence, pending.run,
+                         tr("%1 is another video of this project, with runs and labels of its own. Put the video of "
+                            "these results at a place of its own, and locate it there")
+                             .arg(QString::fromStdString(pending.media.identity)));
+        return;
+    }
     const bool same_video = pending.purpose == Purpose::other_rate || pending.purpose == Purpose::remembered_rate;
     if (running() && !same_video) stopRun();
     adoptVideo(pending.media, video, same_video);
@@ -97,11 +104,20 @@ void ProjectSession::mediaOpened(int ticket, const OpenedVideo& video) {
             break;
     }
     project_open_ = false;
+    moved_from_.reset();
     takeLists({});
     useRun(std::nullopt);
     emit changed(SessionChange::runs);
     awaitProject(false);
     reader_.openFor(pending.media.name, pending.media.identity, video.info, pending.project);
+}
+
+/// Whether the project knows another video at the place where one was found.
+bool ProjectSession::isOfAnother(const Pending& pending, const VideoInfo& video) const {
+    return std::any_of(sequences_.begin(), sequences_.end(), [&](const SequenceRecord& sequence) {
+        return sequence.id != pending.sequence->id && sequence.path == pending.media.identity &&
+               sequence.size == video.size;
+    });
 }
 
 void ProjectSession::mediaFailed(int ticket, const QString& message) {
@@ -120,6 +136,7 @@ void ProjectSession::mediaFailed(int ticket, const QString& message) {
 void ProjectSession::adoptVideo(Media media, const OpenedVideo& video, bool keep_place) {
     const FrameIndex place = keep_place ? std::min(current_frame_, std::max(0, video.info.frame_count - 1)) : 0;
     if (!keep_place) {
+        keepWritten();
         // A run over the former video may still be stopping: its frames are not of this one.
         setFollowing(false);
         run_project_.clear();
@@ -143,6 +160,7 @@ void ProjectSession::adoptVideo(Media media, const OpenedVideo& video, bool keep
 
 /// A project is on its way from now on; what was asked for before is not wanted any more.
 void ProjectSession::awaitProject(bool opens_video) {
+    endMove();
     ++projects_due_;
     project_opens_video_ = opens_video;
     project_overtaken_ = false;
@@ -158,7 +176,9 @@ bool ProjectSession::isAwaited() {
 
 void ProjectSession::projectOpened(const ProjectLists& lists) {
     if (!isAwaited()) return;
+    keepWritten();
     reader_.takeUp();
+    moved_from_.reset();
     const bool opens_video = std::exchange(project_opens_video_, false);
     project_ = lists.project;
     project_open_ = true;
@@ -205,6 +225,7 @@ void ProjectSession::openVideoOfProject() {
 }
 
 void ProjectSession::closeVideo() {
+    keepWritten();
     loader_.closeMedia();
     media_.reset();
     video_.reset();
@@ -218,6 +239,8 @@ void ProjectSession::closeVideo() {
 }
 
 void ProjectSession::closeProject() {
+    endMove();
+    moved_from_.reset();
     cancelOpening();
     project_opens_video_ = false;
     project_overtaken_ = projects_due_ > 0;
@@ -324,6 +347,7 @@ void ProjectSession::adoptLive(const RunRecord& record) {
     video.info.size = record.sequence.size;
     video.info.frame_rate_hz = record.sequence.frame_rate_hz;
     project_open_ = false;
+    moved_from_.reset();
     takeLists({});
     useRun(std::nullopt);
     adoptVideo(mediaOf(record.sequence), video, false);

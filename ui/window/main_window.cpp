@@ -1,5 +1,6 @@
 #include "window/main_window.h"
 
+#include <QAbstractItemView>
 #include <QCloseEvent>
 #include <QDockWidget>
 #include <QDragEnterEvent>
@@ -77,7 +78,15 @@ constexpr int kLeastLabelRows_px = 51;  ///< three objects
 constexpr int kMostLabelRows_px = 118;
 const QString kWorkspaces = QStringLiteral("window/workspaces");
 const QString kEventRows = QStringLiteral("window/event_rows");
+const QString kClosingTopic = QStringLiteral("closing");
 const QString kColourBlind = QStringLiteral("window/colour_blind");  ///< of all workspaces: eyes stay the same
+
+/// What is being written in a cell of a list goes into the list.
+void leaveCell(QWidget* focused) {
+    QWidget* viewport = focused != nullptr ? focused->parentWidget() : nullptr;
+    auto* list = viewport != nullptr ? qobject_cast<QAbstractItemView*>(viewport->parentWidget()) : nullptr;
+    if (list != nullptr && list->viewport() == viewport) list->setFocus();
+}
 
 }  // namespace
 
@@ -337,8 +346,16 @@ void MainWindow::wireCanvas() {
 }
 
 void MainWindow::wireSession() {
+    const auto stay_open = [this] {
+        if (!write_wait_.waiting()) return;
+        write_wait_.cancel();
+        closing_ = false;
+        messages_->dismissTopic(kClosingTopic);
+    };
+    whenAny(&session_, this, stay_open, &ProjectSession::problem);
     whenChanged(session_, this,
                 {
+                    {SessionChange::keep_written, [this] { leaveCell(focusWidget()); }},
                     {SessionChange::video, [this] { showVideo(); }},
                     {SessionChange::picture, [this] { showPicture(); }},
                     {SessionChange::selection, [this] { canvas_->setSelectedTrack(session_.selectedTrack()); }},
@@ -441,13 +458,31 @@ void MainWindow::closeEvent(QCloseEvent* event) {
         });
         return;
     }
+    session_.keepWritten();
     files_->rememberView();
     settings_.setGeometry(saveGeometry());
     settings_.setValue(kColourBlind, overlays_.palette() == PaletteKind::colour_blind);
     settings_.setValue(kEventRows, timeline_->kindsShown());
     settings_.setValue(kWorkspaces, workspaces_->state());
+    if (waitsForWrites()) {
+        event->ignore();
+        return;
+    }
     session_.stopRun();  // the run's own thread finishes storing while the program goes down
     event->accept();
+}
+
+/// Whether what a person did last is on its way into its files still. The window closes by itself once it is there, and
+/// stays where it could not be written, so that its message is read.
+bool MainWindow::waitsForWrites() {
+    if (std::exchange(written_, false) || !write_wait_.anythingDue()) return false;
+    messages_->showTopic(kClosingTopic, MessageKind::info, tr("Storing what was done last; then the window closes."));
+    write_wait_.begin([this](bool) {
+        messages_->dismissTopic(kClosingTopic);
+        written_ = true;
+        close();
+    });
+    return true;
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {

@@ -97,6 +97,7 @@ class MainWindow : public QMainWindow {
     void enableActions();
     void updateTitle();
     void focusCanvas();
+    bool waitsForWrites();
     /// How high the rows below the video are, by how high the window is.
     void fitRows();
 
@@ -106,6 +107,8 @@ class MainWindow : public QMainWindow {
     ProjectSession session_;
     bool shown_ = false;    ///< once
     bool closing_ = false;  ///< the user was asked and answered
+    bool written_ = false;  ///< what people did is in its files
+    WrittenWait write_wait_;
 
     WindowActions* actions_;
     MessageBar* messages_;

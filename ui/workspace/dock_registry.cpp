@@ -80,7 +80,7 @@ Columns columnsOf(WorkspaceKind workspace) {
             return {{DockId::events, DockId::tracks, DockId::runs, DockId::bookmarks},
                     {DockId::card, DockId::inspector, DockId::mosaic, DockId::metadata}};
         case WorkspaceKind::label:
-            return {{DockId::objects}, {DockId::object, DockId::object_chips}};
+            return {{DockId::objects, DockId::runs}, {DockId::object, DockId::object_chips}};
         case WorkspaceKind::tune:
             break;
     }

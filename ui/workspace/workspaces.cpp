@@ -15,7 +15,7 @@ namespace {
 
 /// Counts up when what was stored of a workspace no longer fits its docks, or they are arranged otherwise.
 int layoutVersionOf(WorkspaceKind kind) {
-    return kind == WorkspaceKind::label ? 6 : 5;  // 6: one column leaves the video half of a small window
+    return kind == WorkspaceKind::label ? 7 : 5;  // 7: its runs can be chosen
 }
 const QString kCurrent = QStringLiteral("current");
 const QString kLayout = QStringLiteral("/layout");

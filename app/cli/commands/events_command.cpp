@@ -72,23 +72,24 @@ void tellRemarks(const StoredTracks& stored, const std::vector<std::string>& rem
 }
 
 /// A list is there at once: only a table is worth reading through the video for.
-VideoClock clockFor(const ListArguments& arguments, const RunRecord& run) {
-    const InterruptGuard interrupt;
+VideoClock clockFor(const ListArguments& arguments, const RunRecord& run, const std::stop_token& stop) {
     ProjectFile project = openForReading(arguments.events.project);
-    return clockOf(project, run, arguments.start, !arguments.csv.empty(), interrupt.token());
+    return clockOf(project, run, arguments.start, !arguments.csv.empty(), stop);
 }
 
-void tellEvents(const ListArguments& arguments) {
+int tellEvents(const ListArguments& arguments, const std::stop_token& stop) {
     const EventChoice choice = arguments.events.choice();
     arguments.outputs.check({{arguments.csv, FileKind::text}}, {arguments.events.project, arguments.events.zones});
     const ReviewedRun reviewed = arguments.events.read(choice);
+    if (stop.stop_requested()) return exit_stopped;
     const StoredTracks& stored = reviewed.tracks;
     arguments.events.tellZones(reviewed);
     if (choice.zones) checkReach(*choice.zones, stored.footage);
     tellRemarks(stored, remarksOn(reviewed.zones, stored.footage));
     const JudgedEvents wanted = wantedOf(reviewed, choice);
     const FrameClock seconds = [&](FrameIndex frame) { return stored.secondsOf(frame); };
-    const VideoClock clock = clockFor(arguments, reviewed.run);
+    const VideoClock clock = clockFor(arguments, reviewed.run, stop);
+    if (stop.stop_requested()) return exit_stopped;
     if (clock.source() != VideoClock::Source::none)
         std::fprintf(stderr, "eyrie-cli: clock times come from %s\n", clock.origin().c_str());
     const FrameMoment moment = momentsBy(clock, seconds);
@@ -99,6 +100,7 @@ void tellEvents(const ListArguments& arguments) {
     printEvents(wanted, stored, moment);
     printLeft(wanted, reviewed.review);
     printCorrections(reviewed.tracks.corrections, reviewed.review);
+    return exit_ok;
 }
 
 /// Reads what the vehicles of a run look like, and says what of it could not be read.
@@ -120,7 +122,7 @@ LooksByTrack looksIn(const RunRecord& run, const StoredTracks& stored, const std
 }
 
 /// Tracks like one: no events are looked for. Answers the exit code.
-int tellLikeTracks(const ListArguments& arguments) {
+int tellLikeTracks(const ListArguments& arguments, const std::stop_token& stop) {
     const LikenessChoice counts =
         arguments.like_by.empty() ? LikenessChoice() : LikenessChoice::named(arguments.like_by);
     const EventChoice choice = arguments.events.choice();
@@ -131,11 +133,8 @@ int tellLikeTracks(const ListArguments& arguments) {
     tellUnregistered(stored);
     const GroundStretches ground(stored.footage);
     std::vector<TrackLikeness> found = tracksLike(stored, ground, arguments.like, choice.options);
-    if (counts.looks) {
-        const InterruptGuard interrupt;
-        compareLooks(found, looksIn(run, stored, interrupt.token()), arguments.like);
-        if (interrupt.token().stop_requested()) return exit_stopped;
-    }
+    if (counts.looks) compareLooks(found, looksIn(run, stored, stop), arguments.like);
+    if (stop.stop_requested()) return exit_stopped;
     orderBy(counts, found);
     if (!arguments.csv.empty()) writeLikenessCsv(arguments.csv, found, stored);
     printLikeness(arguments.like, found, stored, counts.looks);
@@ -169,12 +168,9 @@ void addEventsCommand(CLI::App& app, int& exit_code) {
     like->excludes(addStart(*command, arguments->start));
     arguments->outputs.addTo(*command);
     command->callback([arguments, like, &exit_code] {
-        if (like->count() > 0) {
-            exit_code = tellLikeTracks(*arguments);
-            return;
-        }
-        tellEvents(*arguments);
-        exit_code = exit_ok;
+        exit_code = untilStopped([&](const std::stop_token& stop) {
+            return like->count() > 0 ? tellLikeTracks(*arguments, stop) : tellEvents(*arguments, stop);
+        });
     });
 }
 

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -129,13 +130,18 @@ void printProject(const Json& facts) {
                     sweep["points"].get<int>());
 }
 
-Json projectFacts(const std::filesystem::path& path) {
+/// As much of it as could be read until the stop.
+Json projectFacts(const std::filesystem::path& path, const std::stop_token& stop) {
     ProjectFile project = openForReading(path);
     RunStore store(project);
     Json facts{{"file", std::filesystem::absolute(path).string()}, {"kind", "project"}, {"runs", Json::array()}};
-    for (const RunRecord& run : store.runs()) facts["runs"].push_back(factsOf(store, run));
+    for (const RunRecord& run : store.runs()) {
+        if (stop.stop_requested()) return facts;
+        facts["runs"].push_back(factsOf(store, run));
+    }
     facts["labels"] = Json::array();
     for (const SequenceRecord& sequence : sequencesOf(project)) {
+        if (stop.stop_requested()) return facts;
         const AnnotationSet labels = readAnnotations(project, sequence.id);
         if (!labels.objects.empty())
             facts["labels"].push_back({{"video", sequence.path}, {"objects", labels.objects.size()}});
@@ -158,7 +164,7 @@ struct InfoArguments {
 };
 
 /// A video, a folder of images, or several video files that are one video.
-Json videoFacts(const InfoArguments& arguments) {
+Json videoFacts(const InfoArguments& arguments, const std::stop_token& stop) {
     if (!arguments.list.empty()) {
         if (arguments.files.size() < 2 || !hasPartListName(arguments.list))
             throw Error(ErrorKind::parameter, "--list " + arguments.list + ": name a file (*" + kPartListEnding +
@@ -168,10 +174,9 @@ Json videoFacts(const InfoArguments& arguments) {
     if (arguments.files.size() == 1) {
         SourceOptions options;
         options.frame_rate_hz = arguments.frame_rate_hz;
-        return factsOf(*openSource(arguments.files.front(), options));
+        return factsOf(*openSource(arguments.files.front(), options, {}, stop));
     }
-    const InterruptGuard interrupt;
-    const auto source = openInputs(arguments.files, arguments.frame_rate_hz, interrupt.token(), {});
+    const auto source = openInputs(arguments.files, arguments.frame_rate_hz, stop, {});
     Json facts = factsOf(*source);
     if (!arguments.list.empty()) {
         writePartList(arguments.list, dynamic_cast<PartSource&>(*source).listed());
@@ -180,9 +185,21 @@ Json videoFacts(const InfoArguments& arguments) {
     return facts;
 }
 
+int tellFacts(const InfoArguments& arguments, const std::stop_token& stop) {
+    const bool is_project = arguments.files.size() == 1 && isProject(arguments.files.front());
+    const Json facts = is_project ? projectFacts(arguments.files.front(), stop) : videoFacts(arguments, stop);
+    if (stop.stop_requested()) return exit_stopped;
+    if (arguments.json) {
+        std::printf("%s\n", facts.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+    } else {
+        is_project ? printProject(facts) : printVideo(facts);
+    }
+    return exit_ok;
+}
+
 }  // namespace
 
-void addInfoCommand(CLI::App& app, int&) {
+void addInfoCommand(CLI::App& app, int& exit_code) {
     const auto arguments = std::make_shared<InfoArguments>();
     CLI::App* command = app.add_subcommand("info", "Show what a video, a folder of images or a project holds");
     command
@@ -196,14 +213,8 @@ void addInfoCommand(CLI::App& app, int&) {
                         "Write the list of several video files (*.parts), which every command takes for a video");
     arguments->outputs.addTo(*command);
     addJson(*command, arguments->json);
-    command->callback([arguments] {
-        const bool is_project = arguments->files.size() == 1 && isProject(arguments->files.front());
-        const Json facts = is_project ? projectFacts(arguments->files.front()) : videoFacts(*arguments);
-        if (arguments->json) {
-            std::printf("%s\n", facts.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
-        } else {
-            is_project ? printProject(facts) : printVideo(facts);
-        }
+    command->callback([arguments, &exit_code] {
+        exit_code = untilStopped([&](const std::stop_token& stop) { return tellFacts(*arguments, stop); });
     });
 }
 

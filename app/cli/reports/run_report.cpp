@@ -59,12 +59,17 @@ std::string unregisteredText(const RunCounts& counts) {
     return text + ")\n";
 }
 
-const char* whyNothing(NothingFollowed nothing) {
-    switch (nothing) {
+std::string whyNothing(const RunFacts& facts) {
+    switch (facts.nothing) {
         case NothingFollowed::has_tracks:
             return "";
         case NothingFollowed::no_frames:
             return "no frame was processed";
+        case NothingFollowed::too_few_frames:
+            return formatted(
+                "%d frame%s %s too few for a track, which takes at least %d (tracking.confirm_hits decides)",
+                facts.counts.frames, facts.counts.frames == 1 ? "" : "s", facts.counts.frames == 1 ? "is" : "are",
+                facts.frames_needed);
         case NothingFollowed::not_registered:
             return "no frame could be registered onto the one before it, so no motion could be measured";
         case NothingFollowed::no_motion:
@@ -142,7 +147,7 @@ std::string summaryText(const VideoInfo& video, const RunRecord& run, const RunS
         text += formatted(" (by their size two-wheelers %d, persons %d)", two_wheelers, persons);
     if (facts.nothing != NothingFollowed::has_tracks) {
         const std::string doubt = doubtfulScaleOf(facts);
-        text += ": " + (doubt.empty() ? whyNothing(facts.nothing) : doubt);
+        text += ": " + (doubt.empty() ? whyNothing(facts) : doubt);
     }
     text += "\nMedian per frame:";
     for (int i = 0; i < kStageCount; ++i) {

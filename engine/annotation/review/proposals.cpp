@@ -4,6 +4,7 @@
 #include <opencv2/core/utility.hpp>
 
 #include "annotation/edits/object_pieces.h"
+#include "annotation/review/join_suggestions.h"
 
 namespace eyrie {
 namespace {
@@ -40,6 +41,7 @@ Proposal propose(const DenseTrack& track, const AnnotationSet& labelled, const C
                  const ProposalOptions& options) {
     Proposal proposal;
     proposal.track = track.id;
+    proposal.track_class = track.track_class;
     proposal.object.object_class = options.object_class;
     proposal.object.origin = ObjectOrigin::proposal_accepted;
     ReductionOptions reduction = options.reduction;
@@ -58,7 +60,58 @@ Proposal propose(const DenseTrack& track, const AnnotationSet& labelled, const C
     return proposal;
 }
 
+/// An object that shows the vehicle of a proposal in some of its frames, or shortly before or after; null: none does.
+const LabelledObject* neighbourOf(const LabelledObject& proposed, const AnnotationSet& labelled,
+                                  const CameraMotion& camera) {
+    constexpr int kLongestGap = 50;  // frames
+    AnnotationSet near;
+    for (const auto& [id, object] : labelled.objects) {
+        if (object.last_frame + kLongestGap < firstFrameOf(proposed)) continue;
+        if (firstFrameOf(object) > proposed.last_frame + kLongestGap) continue;
+        near.objects.emplace_hint(near.objects.end(), id, object);
+    }
+    if (near.objects.empty()) return nullptr;
+    const ObjectId id = near.objects.rbegin()->first + 1;
+    near.objects[id] = proposed;
+    near.objects[id].id = id;
+    const auto fusions = suggestFusions(near, id, camera);
+    if (!fusions.empty()) return &labelled.objects.at(fusions.front().object);
+    SuggestionOptions options;
+    options.max_gap = kLongestGap;
+    options.max_distance_px = proposed.keyframes.front().box.length;  // farther off it may be another vehicle
+    options.px_per_gap_frame = 0;
+    options.max_count = 1;
+    const auto joins = suggestJoins(near, id, camera, options);
+    return joins.empty() ? nullptr : &labelled.objects.at(joins.front().object);
+}
+
+/// The class that most things of a kind have.
+std::string commonestOf(TrackClass kind) {
+    switch (kind) {
+        case TrackClass::vehicle:
+            return "car";
+        case TrackClass::two_wheeler:
+            return "motorcycle";
+        case TrackClass::person:
+            return "person";
+        case TrackClass::unknown:
+            break;
+    }
+    return {};
+}
+
 }  // namespace
+
+std::string classOfProposal(const Proposal& proposal, const AnnotationSet& labelled, const CameraMotion& camera,
+                            const std::string& drawn) {
+    if (!proposal.object.keyframes.empty())
+        if (const LabelledObject* neighbour = neighbourOf(proposal.object, labelled, camera))
+            return neighbour->object_class;
+    // A class of one's own may be of any kind.
+    const TrackClass kind = trackClassOf(drawn);
+    const bool agrees = kind == TrackClass::unknown || kind == proposal.track_class;
+    return agrees || proposal.track_class == TrackClass::unknown ? drawn : commonestOf(proposal.track_class);
+}
 
 std::vector<Proposal> proposeTracks(const std::vector<DenseTrack>& tracks, const AnnotationSet& labelled,
                                     const CameraMotion& camera, const ProposalOptions& options) {

@@ -1,25 +1,29 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "annotation/keyframes/camera_motion.h"
 #include "annotation/keyframes/keyframe_reduction.h"
 #include "core/labels/annotation.h"
+#include "core/labels/track_class.h"
 
 namespace eyrie {
 
 /// A track of a run, offered as an object. It is no part of the labels until it is accepted.
 struct Proposal {
     TrackId track = 0;
-    LabelledObject object;     ///< id 0, origin proposal_accepted
-    double max_corner_px = 0;  ///< how far its interpolation is from the track at worst
-    ObjectId same_as = 0;      ///< an object that is there already and overlaps it by half or more; 0: none
+    LabelledObject object;                         ///< id 0, origin proposal_accepted
+    double max_corner_px = 0;                      ///< how far its interpolation is from the track at worst
+    TrackClass track_class = TrackClass::unknown;  ///< what the run takes it for
+    ObjectId same_as = 0;  ///< an object that is there already and overlaps it by half or more; 0: none
 };
 
 /// A track's boxes, ascending frames.
 struct DenseTrack {
     TrackId id = 0;
     std::vector<FrameBox> boxes;
+    TrackClass track_class = TrackClass::unknown;  ///< what the run takes it for
 };
 
 /// Which tracks are offered as objects, and with how many keyframes.
@@ -41,6 +45,12 @@ LabelledObject cutToRange(const LabelledObject& object, FrameIndex first, FrameI
 
 /// The proposal as an object of the project.
 LabelledObject accepted(const Proposal& proposal, ObjectId id, std::uint32_t colour);
+
+/// The class of a proposal that is taken over: that of a labelled object that is the same vehicle for all that is
+/// known, labelled in other frames or in some of these; else `drawn`, the class of what is drawn next, unless the run
+/// takes the track for something else: then the commonest of that kind.
+std::string classOfProposal(const Proposal& proposal, const AnnotationSet& labelled, const CameraMotion& camera,
+                            const std::string& drawn);
 
 /// What an object's origin is once a person changed its boxes: a proposal taken over becomes a corrected one.
 ObjectOrigin originAfterChange(ObjectOrigin origin);

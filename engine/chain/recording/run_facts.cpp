@@ -1,11 +1,17 @@
 #include "chain/recording/run_facts.h"
 
+#include <algorithm>
+
+#include "chain/chain_options.h"
+#include "core/error.h"
+
 namespace eyrie {
 namespace {
 
-NothingFollowed firstGap(const RunCounts& counts) {
+NothingFollowed firstGap(const RunCounts& counts, int frames_needed) {
     if (counts.tracks > 0) return NothingFollowed::has_tracks;
     if (counts.frames == 0) return NothingFollowed::no_frames;
+    if (counts.frames < frames_needed) return NothingFollowed::too_few_frames;
     // The first frame has nothing to be registered onto.
     if (counts.unregistered > 0 && counts.unregistered >= counts.frames - 1) return NothingFollowed::not_registered;
     if (!counts.any_detection)
@@ -14,10 +20,21 @@ NothingFollowed firstGap(const RunCounts& counts) {
     return counts.dropped_tracks > 0 ? NothingFollowed::all_dropped : NothingFollowed::none_confirmed;
 }
 
+/// In the first frame nothing can have moved yet; a track is detected in later ones, however they follow.
+int framesNeeded(const RunStore& store, const RunRecord& run) {
+    try {
+        const TrackerOptions tracking = storedOptions(store.parameters(run.id)).tracking;
+        return 1 + std::max(1, tracking.atRate(run.scale.frame_rate_hz).confirm_hits);
+    } catch (const Error&) {
+        return 0;  // parameters of another version say nothing of this
+    }
+}
+
 }  // namespace
 
 std::string doubtfulScaleOf(const RunFacts& facts) {
     const bool empty = facts.nothing != NothingFollowed::has_tracks && facts.nothing != NothingFollowed::no_frames &&
+                       facts.nothing != NothingFollowed::too_few_frames &&
                        facts.nothing != NothingFollowed::not_registered;
     const bool stated =
         facts.scale_basis.origin == ScaleOrigin::given || facts.scale_basis.origin == ScaleOrigin::metadata;
@@ -31,7 +48,8 @@ RunFacts factsOf(ProjectFile& project, const RunRecord& run) {
     facts.counts = countRun(project, run.id);
     facts.gsd_m_per_px = run.scale.gsd_m_per_px;
     facts.scale_basis = run.scale_basis;
-    facts.nothing = firstGap(facts.counts);
+    if (facts.counts.tracks == 0) facts.frames_needed = framesNeeded(RunStore(project), run);
+    facts.nothing = firstGap(facts.counts, facts.frames_needed);
     return facts;
 }
 

@@ -9,6 +9,7 @@ namespace eyrie {
 enum class NothingFollowed {
     has_tracks,      ///< there are tracks
     no_frames,       ///< no frame was done
+    too_few_frames,  ///< fewer were done than a track has to be detected in, RunFacts::frames_needed
     not_registered,  ///< no frame could be registered, so no motion could be measured
     no_motion,       ///< no corner moved otherwise than the ground
     no_detections,   ///< what moved was nowhere outlined as a vehicle
@@ -25,6 +26,7 @@ struct RunFacts {
     double gsd_m_per_px = 0;
     ScaleBasis scale_basis;
     NothingFollowed nothing = NothingFollowed::has_tracks;
+    int frames_needed = 0;  ///< fewer can have no track (tracking.confirm_hits); 0 where there are tracks
 };
 
 /// Why a run without tracks could not have any with the scale that was given for it, doubtOfGsd(); empty where its

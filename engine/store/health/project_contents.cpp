@@ -57,7 +57,7 @@ void readLabels(SQLite::Database& database, ProjectContents& contents) {
             contents.keyframes += static_cast<int>(RowReader::unpacked(unpackKeyframes(bytes), "keyframes").size());
             object += row.text();
         });
-    for (const char* table : {"ignore_region", "review_mark", "object_class"}) {
+    for (const char* table : {"ignore_region", "review_mark", "object_class", "rejected_proposal"}) {
         each(database, table, std::string("SELECT count(*) FROM ") + table,
              [&](RowReader& row) { contents.label_rows[table] = row.wide(); });
     }
@@ -211,6 +211,7 @@ void compareLabels(const ProjectContents& present, const ProjectContents& earlie
     };
     compareCounts(rows(present, "ignore_region"), rows(earlier, "ignore_region"), "ignore region", lines);
     compareCounts(rows(present, "review_mark"), rows(earlier, "review_mark"), "review mark", lines);
+    compareCounts(rows(present, "rejected_proposal"), rows(earlier, "rejected_proposal"), "rejected proposal", lines);
     compareCounts(present.edits, earlier.edits, "step to undo", lines, "steps to undo");
 }
 

@@ -100,6 +100,7 @@ std::vector<std::string> summaryOf(SQLite::Database& database) {
     for (const Kind& kind :
          {Kind{"labelled_object", "labelled object", "labelled objects"},
           Kind{"ignore_region", "ignore region", "ignore regions"}, Kind{"review_mark", "review mark", "review marks"},
+          Kind{"rejected_proposal", "rejected proposal", "rejected proposals"},
           Kind{"edit_journal", "step of work on the labels", "steps of work on the labels"},
           Kind{"verdict", "verdict", "verdicts"}, Kind{"bookmark", "bookmark", "bookmarks"},
           Kind{"zone", "zone", "zones"}, Kind{"correction", "correction of tracks", "corrections of tracks"},

@@ -230,6 +230,7 @@ std::vector<RowRule> rowRules() {
          life + " AND " + isOneOf("state", stored::kReviewStates) + " AND " + areShort("person, when_utc"),
          "a review mark is impossible"},
         {"object_class", areShort("name"), "name of a class is impossible"},
+        {"rejected_proposal", areShort("person, when_utc"), "a rejected proposal cannot be read"},
         {"edit_journal", "undone IN (0, 1) AND " + areShort("name, made_utc"), "a step of work cannot be read"},
         {"verdict",
          "id BETWEEN 1 AND 2147483647 AND last_frame <= " + std::to_string(kLastFrame) + " AND " + life +

@@ -17,7 +17,7 @@ namespace eyrie {
 /// replaces what was known. Throws Error(project | output).
 int ensureSequence(ProjectFile& project, const SequenceRecord& sequence);
 /// A video of the project lies elsewhere now: its runs and labels belong to `path`. Throws Error(project | output),
-/// also when the project has another video of that path and size.
+/// and Error(parameter), changing nothing, when the project has another video of that path and size.
 void relocateSequence(ProjectFile& project, int sequence_id, const std::string& path);
 /// All videos of a project, ascending ids.
 std::vector<SequenceRecord> sequencesOf(ProjectFile& project);

@@ -15,14 +15,31 @@
 namespace eyrie::schema {
 namespace {
 
-constexpr std::array kMigrations{addRuns,          addLabels,        addComparisonsAndCompleteBoxes,
-                                 addSweeps,        addPresets,       addDroppedStates,
-                                 addRemovalOfRuns, addRunStates,     addRegistrationFaults,
-                                 addViews,         addReview,        addScaleOrigins,
-                                 addZones,         addScaleSlopes,   addKeptDetails,
-                                 addEvidence,      addCorrections,   addLocalScales,
-                                 addAssumedRates,  addCompactStates, addVideoStarts,
-                                 addArrows,        addDoubtfulIndex, addDecisions};
+constexpr std::array kMigrations{addRuns,
+                                 addLabels,
+                                 addComparisonsAndCompleteBoxes,
+                                 addSweeps,
+                                 addPresets,
+                                 addDroppedStates,
+                                 addRemovalOfRuns,
+                                 addRunStates,
+                                 addRegistrationFaults,
+                                 addViews,
+                                 addReview,
+                                 addScaleOrigins,
+                                 addZones,
+                                 addScaleSlopes,
+                                 addKeptDetails,
+                                 addEvidence,
+                                 addCorrections,
+                                 addLocalScales,
+                                 addAssumedRates,
+                                 addCompactStates,
+                                 addVideoStarts,
+                                 addArrows,
+                                 addDoubtfulIndex,
+                                 addDecisions,
+                                 addRejectedProposals};
 
 }  // namespace
 

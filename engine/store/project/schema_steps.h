@@ -32,5 +32,6 @@ void addVideoStarts(SQLite::Database& database);
 void addArrows(SQLite::Database& database);
 void addDoubtfulIndex(SQLite::Database& database);
 void addDecisions(SQLite::Database& database);
+void addRejectedProposals(SQLite::Database& database);
 
 }  // namespace eyrie::schema

@@ -141,6 +141,30 @@ class LabelFilesTest : public QObject, test::Labelling {
         }
     }
 
+    void nothingIsImportedIntoLabelsThatAreOpenedMeanwhile() {
+        const auto window = labellingWindow(5);
+        QVERIFY(window);
+        LabelSession& labels = window->labelling().labels();
+        const auto file = home() / "truth.txt";
+        std::ofstream(file) << "1,4,20,30,20,10,1,1,1\n2,4,22,30,20,10,1,1,1\n";
+        LabelImportDialog import(labels);
+        import.open();
+        QSignalSpy read(&import, &LabelImportDialog::fileRead);
+        import.setFile(file);
+        QVERIFY(read.wait(kPatience_ms));
+        QVERIFY(import.readyToImport());
+        QSignalSpy rejected(&import, &QDialog::rejected);
+        QSignalSpy opened(&labels, &LabelSession::opened);
+        import.accept();  // the plan is being made while other labels take the place of these
+        window->session().open(test::writeScene(home() / "others", 5));
+        QVERIFY(opened.wait(kPatience_ms));
+        if (import.result() != QDialog::Accepted) QCOMPARE(rejected.count(), 1);
+        QVERIFY(!import.isVisible());
+        import.accept();
+        QVERIFY(!import.readyToImport() || import.result() == QDialog::Accepted);
+        QVERIFY(labels.annotations().objects.empty());
+    }
+
     void aBrokenFileIsRefusedAndNothingChanges() {
         const auto window = labellingWindow(5);
         QVERIFY(window);

@@ -127,6 +127,54 @@ class LabelHelpTest : public QObject, test::Labelling {
         QVERIFY(proposals.rejectedCount() > 0);
     }
 
+    void whatWasRejectedIsNotOfferedWhenTheWindowIsOpenedAgain() {
+        TrackId rejected = 0;
+        std::size_t offered = 0;
+        {
+            const auto window = labellingWindow(60, true);
+            QVERIFY(window);
+            LabelProposals& proposals = window->labelling().proposals();
+            key(*window, Qt::Key_P);
+            QVERIFY(waitFor([&] { return proposals.shown() && !proposals.working() && !proposals.pending().empty(); }));
+            offered = proposals.pending().size();
+            rejected = proposals.pending().front()->track;
+            proposals.reject({rejected});
+            QCOMPARE(proposals.pending().size(), offered - 1);
+        }
+        const auto window = labellingWindow(60);
+        QVERIFY(window);
+        LabelProposals& proposals = window->labelling().proposals();
+        QVERIFY(waitFor([&] { return window->session().currentRun().has_value(); }));
+        key(*window, Qt::Key_P);
+        QVERIFY(waitFor([&] { return proposals.shown() && !proposals.working() && proposals.rejectedCount() == 1; }));
+        QCOMPARE(proposals.pending().size(), offered - 1);
+        QVERIFY(proposals.find(rejected) != nullptr);
+        proposals.offerAgain();
+        QCOMPARE(proposals.pending().size(), offered);
+        QCOMPARE(proposals.rejectedCount(), 0);
+    }
+
+    void theRunWhoseTracksAreProposedIsChosenBesideTheObjects() {
+        const auto window = labellingWindow(60, true);
+        QVERIFY(window);
+        QVERIFY(window->docks().docksFor(WorkspaceKind::label).contains(window->docks().dock(DockId::runs)));
+        const int first = *window->session().currentRun();
+        QSignalSpy finished(&window->session(), &ProjectSession::runFinished);
+        window->session().startRun();
+        QVERIFY(finished.wait(test::kPatience_ms));
+        const auto runs = [&] { return window->session().runs().size(); };
+        QVERIFY(waitFor([&] { return runs() == 2 && window->session().currentRun() != first; }));
+        key(*window, Qt::Key_P);
+        LabelProposals& proposals = window->labelling().proposals();
+        QVERIFY(waitFor([&] { return !proposals.working() && !proposals.pending().empty(); }));
+        proposals.reject({proposals.pending().front()->track});
+        QCOMPARE(proposals.rejectedCount(), 1);
+        window->docks().raise(DockId::runs);
+        window->session().showRun(first);
+        QVERIFY(waitFor([&] { return !proposals.working() && !proposals.pending().empty(); }));
+        QCOMPARE(proposals.rejectedCount(), 0);  // of that run none
+    }
+
     void severalProposalsAreTakenTogetherAsExactAsAsked() {
         const auto window = labellingWindow(60, true);
         QVERIFY(window);

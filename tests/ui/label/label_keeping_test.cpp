@@ -41,6 +41,43 @@ class LabelKeepingTest : public QObject, test::Labelling {
         QVERIFY(std::abs(object(*window, id).keyframes[0].box.centre.x - x) < 1e-9);
     }
 
+    void notesThatAreBeingWrittenStayWithTheObjectOfTheProjectThatIsLeft() {
+        {
+            const auto window = labellingWindow(6);
+            QVERIFY(window);
+            draw(*window, {40, 60}, {58, 60});
+            QTest::keyClicks(&window->labelling().inspector().notes(), QStringLiteral("white van"));
+            QSignalSpy opened(&window->labelling().labels(), &LabelSession::opened);
+            window->session().open(test::writeScene(home() / "others", 6));
+            QVERIFY(opened.wait(test::kPatience_ms));
+            QVERIFY(window->labelling().labels().annotations().objects.empty());
+        }
+        const auto window = labellingWindow(6);
+        QVERIFY(window);
+        QCOMPARE(window->labelling().labels().annotations().objects.size(), std::size_t(1));
+        QCOMPARE(window->labelling().labels().annotations().objects.begin()->second.notes, std::string("white van"));
+    }
+
+    void whatIsLabelledWhileTheProjectIsSavedUnderAnotherNameIsThere() {
+        const auto window = labellingWindow(6);
+        QVERIFY(window);
+        LabelSession& labels = window->labelling().labels();
+        const ObjectId id = draw(*window, {40, 60}, {58, 60});
+        const auto other = home() / "other.eyrie";
+        double x = 0;
+        window->session().saveProjectAs(other);
+        QVERIFY(waitFor([&] {
+            if (window->session().project() != other && labels.canEdit() && labels.selected()) {
+                window->labelling().editor().nudge(1, 0);
+                x = object(*window, id).keyframes[0].box.centre.x;
+            }
+            return window->session().project() == other && labels.isOpen() && labels.projectPath() == other;
+        }));
+        QVERIFY(x > 0);
+        QCOMPARE(object(*window, id).keyframes[0].box.centre.x, x);
+        QVERIFY(labels.canEdit());
+    }
+
     void aSecondWindowReadsOnlyAndSaysWhy() {
         auto first = labellingWindow(6);
         QVERIFY(first);

@@ -59,6 +59,22 @@ class EventCardTest : public QObject {
         QCOMPARE(card.note().text(), QStringLiteral("van"));
     }
 
+    void whatIsBeingWrittenIsKeptWhenItIsAskedFor() {
+        EventCard card;
+        QStringList kept;
+        card.setCommands({.write_note = [&](int event, const QString& note) {
+            kept << QStringLiteral("%1 %2").arg(event).arg(note);
+        }});
+        card.keepWritten();  // there is no card
+        CardSubject subject;
+        subject.event = 3;
+        card.show(subject);
+        QTest::keyClicks(&card.note(), QStringLiteral("white van"));
+        card.keepWritten();  // the project is about to be another
+        card.keepWritten();
+        QCOMPARE(kept, QStringList{QStringLiteral("3 white van")});
+    }
+
     void whatWasTypedIsKeptWhenAnotherEventIsShown() {
         EventCard card;
         QStringList kept;

@@ -37,6 +37,17 @@ class RunTextTest : public QObject {
         QVERIFY2(text.contains(QStringLiteral("12.0 s could not be searched: 300 frames")), qPrintable(text));
     }
 
+    void tooFewFramesAreToldWithHowManyATrackTakes() {
+        RunFacts found = facts(0);
+        found.nothing = NothingFollowed::too_few_frames;
+        found.counts.frames = 3;
+        found.frames_needed = 6;
+        QCOMPARE(whyNoTracks(found), QStringLiteral("3 frames are too few for a track, which takes at least 6 "
+                                                    "(tracking.confirm_hits)."));
+        found.counts.frames = 1;
+        QVERIFY(whyNoTracks(found).startsWith(QStringLiteral("1 frame is too few")));
+    }
+
     void eventsAreCountedBesideTracks() {
         QVERIFY(runSummaryText(run(), facts(3)).contains(QStringLiteral(": 3 tracks.")));
         QVERIFY(runSummaryText(run(), facts(3), 9).contains(QStringLiteral(": 3 tracks, 9 events.")));

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "session/background/background_query.h"
+#include "session/background/written_wait.h"
 #include "ui/support/ui_test.h"
 
 namespace eyrie::ui::background_query_test {
@@ -42,6 +43,45 @@ class BackgroundQueryTest : public QObject {
     }
 
  private slots:
+    void whatIsToBeWrittenIsWrittenWhenItsOwnerGoes() {
+        std::vector<int> done;
+        const auto pool = std::make_shared<TaskPool>();
+        Gate gate;
+        {
+            BackgroundQuery query(pool);
+            query.post([&](const BackgroundTask&) { gate.pass(); });
+            gate.awaitTask();
+            query.post([&](const BackgroundTask&) { done.push_back(1); });  // what the next one works on
+            query.write([&](const BackgroundTask&) { done.push_back(2); });
+            query.post([&](const BackgroundTask&) { done.push_back(3); });
+            QCOMPARE(pool->writesDue(), 1);
+            gate.open();
+        }
+        QCOMPARE(done, (std::vector<int>{1, 2}));
+        QCOMPARE(pool->writesDue(), 0);
+    }
+
+    void whoWaitsForWritesHearsOfWhatFailedFirst() {
+        const auto pool = std::make_shared<TaskPool>();
+        BackgroundQuery query(pool);
+        Gate gate;
+        QStringList told;
+        query.write(
+            [&](const BackgroundTask&) {
+                gate.pass();
+                throw std::runtime_error("the disk is full");
+            },
+            [&](const QString& message) { told << message; });
+        gate.awaitTask();
+        WrittenWait wait(pool);
+        QVERIFY(wait.anythingDue());
+        wait.begin([&](bool all) { told << (all ? QStringLiteral("all") : QStringLiteral("too long")); });
+        QVERIFY(wait.waiting());
+        gate.open();
+        QVERIFY(QTest::qWaitFor([&] { return !wait.waiting(); }, kPatience_ms));
+        QCOMPARE(told, (QStringList{QStringLiteral("the disk is full"), QStringLiteral("all")}));
+    }
+
     void tasksAreDoneInOrderAndAwayFromTheWindow() {
         const auto here = std::this_thread::get_id();
         std::vector<int> told;

@@ -6,6 +6,7 @@
 #include <QTest>
 
 #include "store/labels/annotation_store.h"
+#include "store/review/seen_store.h"
 #include "support/temporary_folder.h"
 #include "ui/support/ui_test.h"
 
@@ -78,6 +79,35 @@ class ProjectCopyTest : public QObject {
         }
         ProjectFile copy = ProjectFile::open(target);
         QCOMPARE(readAnnotations(copy, id).objects.size(), std::size_t(1));
+    }
+
+    void whatIsDoneBetweenTheCopyAndItsUseIsInItToo() {
+        const eyrie::test::TemporaryFolder folder;
+        ProjectFile project = ProjectFile::openOrCreate(folder / "clip.eyrie");
+        SequenceRecord sequence;
+        sequence.path = "/nowhere/clip.mp4";
+        sequence.size = {160, 120};
+        sequence.frame_count = 10;
+        const int id = ensureSequence(project, sequence);
+        const std::filesystem::path target = folder / "other.eyrie";
+        {
+            ProjectMove move(project, target);
+            QVERIFY(!std::filesystem::exists(target));
+            ProjectFile elsewhere = ProjectFile::open(folder / "clip.eyrie");
+            addSeen(elsewhere, id, "Ada", {{2, 4}});  // by another connection
+            SequenceRecord second = sequence;
+            second.path = "/nowhere/second.mp4";
+            ensureSequence(project, second);  // and by the one that copies
+            move.finish();
+        }
+        ProjectFile copy = ProjectFile::open(target);
+        QCOMPARE(seenByAnybody(copy, id).size(), std::size_t(1));
+        QCOMPARE(sequencesOf(copy).size(), std::size_t(2));
+
+        const std::filesystem::path unused = folder / "unused.eyrie";
+        { const ProjectMove move(project, unused); }
+        for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+            QVERIFY(!entry.path().filename().string().starts_with("unused"));
     }
 };
 

@@ -110,6 +110,17 @@ class SessionProjectsTest : public QObject {
         QCOMPARE(RunStore(present).runs().size(), std::size_t(2));
     }
 
+    void whatWasDoneLastIsKeptWhenAllIsClosedAtOnce() {
+        const auto folder = folderWithRun();
+        {
+            ProjectSession session;
+            QVERIFY(open(session, folder));
+            session.renameRun(session.runs().front().id, QStringLiteral("the last thing done"));
+        }
+        ProjectFile file = ProjectFile::open(project());
+        QCOMPARE(RunStore(file).runs().front().name, std::string("the last thing done"));
+    }
+
     void aVideoThatMovedWithItsProjectIsFound() {
         QVERIFY(!folderWithRun().empty());
         const auto moved = *home_ / "archive";

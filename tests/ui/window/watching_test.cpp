@@ -22,6 +22,7 @@
 #include "review/watch/seen_watch.h"
 #include "review/watch/watch_commands.h"
 #include "review/watch/watched_ground.h"
+#include "store/review/seen_store.h"
 #include "ui/session/session_support.h"
 #include "ui/support/ui_test.h"
 #include "widgets/message_bar.h"
@@ -391,6 +392,23 @@ class WatchingTest : public QObject {
         QVERIFY(!card.subject());
         window().session().selectTrack(window().watching().ground().ground()->run->tracks.back().id);
         QVERIFY(card.subject()->event == 0 && !card.note().isVisible());
+    }
+
+    void whatWasWatchedAndDoneLastIsKeptWhenTheWindowIsClosedAtOnce() {
+        ProjectSession& session = window().session();
+        QTRY_VERIFY_WITH_TIMEOUT(window().events().review().state() == EventReview::State::found, kPatience_ms);
+        const std::filesystem::path path = session.project();
+        const RunRecord run = *session.shownRun();
+        QVERIFY(goTo(0));
+        session.playback().setSpeed(1, 0);
+        session.togglePlay();
+        QTRY_VERIFY_WITH_TIMEOUT(!session.playback().playing(), kPatience_ms);
+        session.renameRun(run.id, QStringLiteral("the last thing done"));
+        window().close();
+        QTRY_VERIFY_WITH_TIMEOUT(!window().isVisible(), kPatience_ms);
+        ProjectFile project = ProjectFile::open(path, ProjectFile::Mode::read_only);
+        QVERIFY(!seenByAnybody(project, run.sequence.id).empty());
+        QCOMPARE(RunStore(project).run(run.id)->name, std::string("the last thing done"));
     }
 
     void whatWasWatchedIsCounted() {

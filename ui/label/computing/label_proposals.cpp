@@ -7,14 +7,14 @@
 #include "annotation/edits/identity_edits.h"
 #include "annotation/keyframes/interpolation.h"
 #include "label/label_classes.h"
+#include "store/labels/rejected_proposals.h"
 #include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
 namespace {
 
-std::vector<DenseTrack> tracksOf(const std::filesystem::path& path, int run_id, const std::stop_token& stop) {
-    ProjectFile project = ProjectFile::open(path, ProjectFile::Mode::read_only);
+std::vector<DenseTrack> tracksOf(ProjectFile& project, int run_id, const std::stop_token& stop) {
     const RunStore store(project);
     std::vector<DenseTrack> tracks;
     for (const TrackSummary& summary : store.tracks(run_id)) {
@@ -22,6 +22,7 @@ std::vector<DenseTrack> tracksOf(const std::filesystem::path& path, int run_id, 
         if (!summary.confirmed) continue;
         DenseTrack track;
         track.id = summary.id;
+        track.track_class = summary.track_class;
         for (const TrackFrame& state : store.trackStates(run_id, summary.id))
             track.boxes.push_back({state.frame, state.state.box});
         if (!track.boxes.empty()) tracks.push_back(std::move(track));
@@ -38,15 +39,12 @@ bool livesIn(const Proposal& proposal, FrameIndex frame) {
 LabelProposals::LabelProposals(ProjectSession& session, LabelSession& labels, QObject* parent)
     : QObject(parent), session_(session), labels_(labels) {
     const auto forget = [this] {
-        query_.cancel();
-        working_ = false;
-        run_.reset();
         proposals_.clear();
         taken_.clear();
         rejected_.clear();
         selection_.clear();
+        readAnew();
         emit changed();
-        if (shown_) read();
     };
     whenChanged(session_, this, {{{SessionChange::current_run, SessionChange::run_ended}, forget}});
     whenAny(&labels_, this, forget, &LabelSession::opened, &LabelSession::closed);
@@ -70,9 +68,13 @@ void LabelProposals::read() {
                        camera = labels_.sharedCamera(), tolerance = tolerance_px_](const BackgroundTask& task) {
         ProposalOptions options;
         options.reduction.tolerance_px = tolerance;
-        auto proposals = proposeTracks(tracksOf(path, run, task.stop()), labelled, *camera, options);
+        ProjectFile project = ProjectFile::open(path, ProjectFile::Mode::read_only);
+        auto proposals = proposeTracks(tracksOf(project, run, task.stop()), labelled, *camera, options);
         std::erase_if(proposals, [](const Proposal& p) { return p.object.keyframes.empty(); });
-        task.tell([this, proposals = std::move(proposals)] { adopt(proposals, {}); });
+        task.tell([this, proposals = std::move(proposals), rejected = rejectedProposals(project, run)] {
+            rejected_ = rejected;
+            adopt(proposals, {});
+        });
     };
     query_.ask(work, [this](const QString& failure) { adopt({}, failure); });
 }
@@ -152,13 +154,17 @@ void LabelProposals::forgetSelected(TrackId track) {
 void LabelProposals::setTolerance(double px) {
     if (tolerance_px_ == px) return;
     tolerance_px_ = px;
-    query_.cancel();
-    working_ = false;
-    run_.reset();
     // Those taken stay what they are.
     std::erase_if(proposals_, [this](const Proposal& proposal) { return isPending(proposal); });
     selection_.clear();
+    readAnew();
     emit changed();
+}
+
+void LabelProposals::readAnew() {
+    query_.cancel();
+    working_ = false;
+    run_.reset();
     if (shown_) read();
 }
 
@@ -183,7 +189,9 @@ std::vector<ObjectId> LabelProposals::take(const std::vector<TrackId>& tracks, F
         const Proposal* proposal = find(track);
         if (proposal == nullptr || !isPending(*proposal)) continue;
         const ObjectId id = labels_.newObjectId();
-        const ObjectClass object_class = classNamed(labels_.annotations(), labels_.drawnClass());
+        const ObjectClass object_class =
+            classNamed(labels_.annotations(),
+                       classOfProposal(*proposal, labels_.annotations(), labels_.camera(), labels_.drawnClass()));
         LabelledObject object = accepted(*proposal, id, object_class.colour);
         object.object_class = object_class.name;
         if (firstFrameOf(object) < first || object.last_frame > last)
@@ -204,8 +212,11 @@ std::vector<ObjectId> LabelProposals::take(const std::vector<TrackId>& tracks, F
 }
 
 void LabelProposals::reject(const std::vector<TrackId>& tracks) {
-    for (const TrackId track : std::vector<TrackId>(tracks)) {
-        if (find(track) == nullptr) continue;
+    std::vector<TrackId> offered;
+    for (const TrackId track : tracks)
+        if (find(track) != nullptr) offered.push_back(track);
+    if (offered.empty() || !run_ || !labels_.rejectProposals(*run_, offered)) return;
+    for (const TrackId track : offered) {
         rejected_.insert(track);
         forgetSelected(track);
     }
@@ -213,7 +224,9 @@ void LabelProposals::reject(const std::vector<TrackId>& tracks) {
 }
 
 void LabelProposals::offerAgain() {
+    if (!run_ || !labels_.offerProposalsAgain(*run_)) return;
     rejected_.clear();
+    if (working_) readAnew();  // what is being read knows them as rejected
     emit changed();
 }
 

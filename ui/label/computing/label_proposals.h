@@ -50,8 +50,9 @@ class LabelProposals : public QObject {
     std::vector<ObjectId> accept(const std::vector<TrackId>& tracks);
     /// The parts of all pending ones that lie in a range of frames.
     std::vector<ObjectId> acceptRange(FrameIndex first, FrameIndex last);
+    /// They are not offered again, in other windows either, until offerAgain(); only with the right to label.
     void reject(const std::vector<TrackId>& tracks);
-    /// Rejected ones are offered again.
+    /// Rejected ones of the run are offered again.
     void offerAgain();
     int rejectedCount() const { return static_cast<int>(rejected_.size()); }
 
@@ -60,6 +61,7 @@ class LabelProposals : public QObject {
 
  private:
     void read();
+    void readAnew();
     void adopt(const std::vector<Proposal>& proposals, const QString& failure);
     bool isPending(const Proposal& proposal) const;
     void forgetSelected(TrackId track);

@@ -88,11 +88,24 @@ LabelImportDialog::LabelImportDialog(LabelSession& labels, QWidget* parent)
     bindCommands(this, {{folder, [this] { chooseFolder(); }},
                         {buttons_->button(QDialogButtonBox::Ok), [this] { accept(); }},
                         {buttons_->button(QDialogButtonBox::Cancel), [this] { reject(); }}});
+    // What was read is meant for these labels: those that are opened next have objects of the same numbers.
+    whenAny(&labels_, this, &LabelImportDialog::giveUp, &LabelSession::closed);
     show_columns();
     setBusy(true);
 }
 
 LabelImportDialog::~LabelImportDialog() = default;
+
+void LabelImportDialog::giveUp() {
+    report_.reset();
+    path_.clear();
+    query_.cancel();
+    importing_.request_stop();
+    setEnabled(true);
+    setBusy(true);
+    text_->setPlainText(tr("The labels that these were for are not open any more. Nothing was imported."));
+    reject();
+}
 
 bool LabelImportDialog::choose() {
     const QString beside = QString::fromStdString(labels_.projectPath().parent_path().string());
@@ -234,15 +247,22 @@ void LabelImportDialog::accept() {
     setBusy(true);
     setEnabled(false);
     text_->setPlainText(tr("Choosing keyframes…"));
-    // Nobody else changes labels while this dialog is up, so the store may hand out ids on the other thread.
-    const auto work = [this, path = path_, format = report_->format, with_classes, store = labels_.store(),
+    // The plan is made of values: the labels may be closed meanwhile, as when another project is opened.
+    const auto work = [this, path = path_, format = report_->format, with_classes,
+                       ground = ImportGround(*labels_.store()), version = labels_.store()->version(),
                        sequence = labels_.sequence(), camera = labels_.sharedCamera(), tolerance = tolerance_->value(),
                        doubles = add_doubles_->isChecked() ? Doubles::add : Doubles::skip,
                        loose = link_->isChecked() ? LooseBoxes::link : LooseBoxes::single](const BackgroundTask& task) {
+        if (task.stop().stop_requested()) return;
         const LabelImport planned =
-            planImport(readLabels(path, format, with_classes), sequence, *camera, *store, tolerance, doubles, loose);
-        task.tell([this, planned] {
+            planImport(readLabels(path, format, with_classes), sequence, *camera, ground, tolerance, doubles, loose);
+        task.tell([this, planned, version, stop = task.stop()] {
+            if (stop.stop_requested() || labels_.store() == nullptr) return;
             setEnabled(true);
+            if (labels_.store()->version() != version) {  // what was tracked meanwhile has taken numbers
+                accept();
+                return;
+            }
             if (planned.edit.empty() || !labels_.apply(planned.edit)) {
                 text_->setPlainText(tr("Nothing was imported.\n") + lines(planned.notes));
                 setBusy(false);
@@ -256,7 +276,8 @@ void LabelImportDialog::accept() {
             QDialog::accept();
         });
     };
-    query_.post(work, [this](const QString& failure) {
+    importing_ = query_.post(work, [this](const QString& failure) {
+        if (path_.empty()) return;
         setEnabled(true);
         setBusy(false);  // what stood in the way may be gone the next time
         text_->setPlainText(failure);

@@ -3,6 +3,7 @@
 #include <QDialog>
 #include <filesystem>
 #include <optional>
+#include <stop_token>
 
 #include "formats/label_formats.h"
 #include "label/label_session.h"
@@ -25,7 +26,7 @@ class LabelImportDialog : public QDialog {
     Q_OBJECT
 
  public:
-    /// `labels` must be open and outlive the dialog.
+    /// `labels` must be open and outlive the dialog. When they are closed, so is the dialog, and nothing is imported.
     explicit LabelImportDialog(LabelSession& labels, QWidget* parent = nullptr);
     ~LabelImportDialog() override;
 
@@ -48,6 +49,7 @@ class LabelImportDialog : public QDialog {
 
  private:
     void chooseFolder();
+    void giveUp();
     void read();
     void showReport(const LabelReport& report, int doubles);
     ImportOptions options() const;
@@ -67,6 +69,7 @@ class LabelImportDialog : public QDialog {
     QCheckBox* link_;
     QPlainTextEdit* text_;
     QDialogButtonBox* buttons_;
+    std::stop_source importing_;
     BackgroundQuery query_;  ///< last: stops before the rest goes
 };
 

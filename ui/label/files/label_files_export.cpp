@@ -3,6 +3,7 @@
 #include <QCoreApplication>
 #include <QStringList>
 
+#include "core/error.h"
 #include "exchange/project_labels.h"
 #include "label/files/label_files_text.h"
 #include "label/label_session.h"
@@ -79,7 +80,12 @@ ExportSource labelExport(const LabelSession& labels) {
     source.files = [sequence](const ExportWish& wish) {
         return labelOutputs(wish, exportOptionsOf(wish, sequence.path));
     };
-    source.begin = [&labels](const ExportWish& wish) -> ExportWork {
+    source.begin = [&labels, of = source.read](const ExportWish& wish) -> ExportWork {
+        if (!labels.isOpen() || of != std::vector<std::filesystem::path>{labels.projectPath(), labels.sequence().path})
+            return [](const ExportProgress&, const std::stop_token&) -> QString {
+                throw Error(ErrorKind::input,
+                            tell("the labels that were to be exported are not open any more").toStdString());
+            };
         return [set = labels.annotations(), sequence = labels.sequence(), camera = labels.sharedCamera(), wish](
                    const ExportProgress&, const std::stop_token& stop) {
             return exportText(writeLabels(labelStreamOf(set, sequence, *camera), wish.path, wish.format,

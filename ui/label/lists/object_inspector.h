@@ -75,6 +75,8 @@ class ObjectInspector : public QWidget {
     void setClasses(const QStringList& classes);
     /// Nothing: says how to select one.
     void showObject(const std::optional<ObjectDetails>& details);
+    /// Keeps notes that are being written.
+    void keepWritten() { keepNotes(shown_); }
     QString title() const;
     QString boxText() const;
     QLineEdit& notes() const { return *notes_; }

@@ -37,7 +37,8 @@ CardDock::CardDock(const CardParts& parts)
     whenAny(&parts_.ground, this, &CardDock::askForStory, &WatchedGround::changed);
     followSession(
         parts_.session, this,
-        {{SessionChange::selection, [this] { showSelection(); }},
+        {{SessionChange::keep_written, [this] { card_->keepWritten(); }},
+         {SessionChange::selection, [this] { showSelection(); }},
          {SessionChange::run_data, [this] { refreshTrack(); }},
          {{SessionChange::video, SessionChange::current_run, SessionChange::run_started, SessionChange::run_ended},
           [this] { explainNothing(); }},

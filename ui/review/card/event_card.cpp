@@ -92,6 +92,7 @@ void EventCard::explainNothing(const QString& text) {
 
 /// Keys, and clicks that leave the focus where it is, go on to another event while something is being written.
 void EventCard::keepWritten() {
+    if (!subject_ || subject_->event == 0) return;
     const int event = subject_->event;
     const QString note = note_->text(), tags = tags_->text();
     const bool note_written = note_->isModified() && note != subject_->note;
@@ -105,7 +106,7 @@ void EventCard::keepWritten() {
 
 void EventCard::show(const std::optional<CardSubject>& subject) {
     if (subject == subject_) return;
-    if (subject_ && subject_->event != 0 && (!subject || subject->event != subject_->event)) keepWritten();
+    if (subject_ && (!subject || subject->event != subject_->event)) keepWritten();
     const bool same = subject && subject_ && subject->track == subject_->track && subject->frame == subject_->frame;
     const bool same_event = subject && subject_ && subject->event == subject_->event;
     // What stands there may be half written: it stays while nothing else is stored.

@@ -48,6 +48,8 @@ class EventCard : public QWidget {
     void setCommands(CardCommands commands) { commands_ = std::move(commands); }
     /// Nothing: no card. What is being written on the card of another event is kept first.
     void show(const std::optional<CardSubject>& subject);
+    /// Keeps what is being written on the card.
+    void keepWritten();
     const std::optional<CardSubject>& subject() const { return subject_; }
     /// What is said while there is no card.
     void explainNothing(const QString& text);
@@ -71,7 +73,6 @@ class EventCard : public QWidget {
     void hideEvent(QHideEvent* event) override;
 
  private:
-    void keepWritten();
     void nextChip();
 
     CardCommands commands_;

@@ -224,7 +224,7 @@ void GroundControl::store(std::vector<ControlPoint> after) {
         }
         if (project == parts_.session.project()) parts_.earth.layOnEarth();
     };
-    query_.post(
+    query_.write(
         [project_path = parts_.session.project(), sequence = parts_.session.sequenceToStore(), before,
          after = std::move(after), settle](const BackgroundTask& task) {
             ProjectFile project = ProjectFile::open(project_path);

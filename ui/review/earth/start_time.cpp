@@ -55,7 +55,7 @@ void StartTime::store(std::optional<std::int64_t> utc_us) {
         if (!problem.isEmpty()) parts_.messages.showTopic(kStartTopic, MessageKind::error, problem);
         parts_.earth.layOnEarth();
     };
-    query_.post(
+    query_.write(
         [project_path = parts_.session.project(), sequence = parts_.session.sequenceToStore(), utc_us,
          settle](const BackgroundTask& task) {
             ProjectFile project = ProjectFile::open(project_path);

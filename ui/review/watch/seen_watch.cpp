@@ -67,26 +67,30 @@ void SeenWatch::flush() {
         told_ && seen.empty() && sequence == sequence_ && project == project_ && searched_ == searched_before;
     if (nothing_new) return;
     told_ = true;
-    query_.post(
-        [this, seen = std::move(seen), project, sequence, now = project_, shown = sequence_, searched = searched_,
-         person = personName().toStdString()](const BackgroundTask& task) {
-            if (!seen.empty() && !project.empty()) {
-                ProjectFile file = ProjectFile::open(project);
-                addSeen(file, sequence, person, seen);
-            }
-            if (shown == 0 || now.empty()) return;
-            ProjectFile file = ProjectFile::open(now, ProjectFile::Mode::read_only);
-            WatchedFrames watched{seenByAnybody(file, shown), 0};
-            watched.share = seenShare(watched.spans, searched);
-            task.tell([this, shown, watched = std::move(watched)] {
-                if (shown == sequence_) show_watched_(watched);
-            });
-        },
-        // A project that cannot be written can be watched all the same; nobody is troubled.
-        [this](const QString&) {
-            told_ = false;  // it is asked for again
-            show_watched_(std::nullopt);
+    const bool anything = !seen.empty() && !project.empty();
+    const auto work = [this, seen = std::move(seen), project, sequence, anything, now = project_, shown = sequence_,
+                       searched = searched_, person = personName().toStdString()](const BackgroundTask& task) {
+        if (anything) {
+            ProjectFile file = ProjectFile::open(project);
+            addSeen(file, sequence, person, seen);
+        }
+        if (shown == 0 || now.empty()) return;
+        ProjectFile file = ProjectFile::open(now, ProjectFile::Mode::read_only);
+        WatchedFrames watched{seenByAnybody(file, shown), 0};
+        watched.share = seenShare(watched.spans, searched);
+        task.tell([this, shown, watched = std::move(watched)] {
+            if (shown == sequence_) show_watched_(watched);
         });
+    };
+    // A project that cannot be written can be watched all the same; nobody is troubled.
+    const auto failed = [this](const QString&) {
+        told_ = false;  // it is asked for again
+        show_watched_(std::nullopt);
+    };
+    if (anything)
+        query_.write(work, failed);
+    else
+        query_.post(work, failed);
 }
 
 }  // namespace eyrie::ui

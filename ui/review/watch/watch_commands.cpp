@@ -131,7 +131,7 @@ void WatchCommands::writeSnapshot(const std::filesystem::path& path, const QImag
     std::vector<std::filesystem::path> inputs{parts_.session.project()};
     if (parts_.session.media() && !isScene(parts_.session.media()->identity))
         inputs.emplace_back(parts_.session.media()->identity);
-    snapshot_query_.post(
+    snapshot_query_.write(
         [this, path, picture, inputs](const BackgroundTask& task) {
             filesToReplace({{path, FileKind::image}}, inputs);  // the dialog has asked whether to replace one
             QByteArray bytes;

@@ -216,7 +216,7 @@ void ZoneReview::writeFile(const QString& path) {
                                       tr("Wrote %1. On the command line: --zone %1").arg(path));
         });
     };
-    files_.post(work, [this](const QString& fault) { tellFault(fault); });
+    files_.write(work, [this](const QString& fault) { tellFault(fault); });
 }
 
 void ZoneReview::tellFault(const QString& fault) {

@@ -65,7 +65,7 @@ void BackgroundTask::tell(std::function<void()> call) const {
 /// The tasks of a query: shared with the pool, which may hold on to it a moment longer.
 class BackgroundQuery::Tasks : public std::enable_shared_from_this<Tasks> {
  public:
-    enum class Kind { posted, question, idle };
+    enum class Kind { posted, write, question, idle };
 
     Tasks(TaskPool& pool, std::shared_ptr<BackgroundTask::Answers> answers)
         : pool_(pool), answers_(std::move(answers)) {}
@@ -76,9 +76,10 @@ class BackgroundQuery::Tasks : public std::enable_shared_from_this<Tasks> {
         std::stop_source stop;
         {
             const std::scoped_lock lock(mutex_);
+            if (ending_) return stop;
             if (kind == Kind::question) stop = questions_;
             if (kind == Kind::idle) stop = idle_stop_;
-            Job job{std::move(work), std::move(failed), {}, stop};
+            Job job{std::move(work), std::move(failed), {}, stop, kind == Kind::write};
             job.task.answers_ = answers_;
             job.task.stop_ = stop.get_token();
             job.task.is_question_ = kind == Kind::question;
@@ -86,7 +87,8 @@ class BackgroundQuery::Tasks : public std::enable_shared_from_this<Tasks> {
                 idle = std::exchange(idle_stop_, std::stop_source());
                 idle_.reset();
             }
-            if (kind == Kind::posted)
+            if (kind == Kind::write) pool_.countWrites(1);
+            if (kind == Kind::posted || kind == Kind::write)
                 posted_.push_back(std::move(job));
             else
                 (kind == Kind::question ? question_ : idle_) = std::move(job);
@@ -119,13 +121,18 @@ class BackgroundQuery::Tasks : public std::enable_shared_from_this<Tasks> {
         cancel();
         std::deque<Job> dropped;
         std::unique_lock lock(mutex_);
-        closed_ = true;
-        dropped.swap(posted_);
-        std::stop_source posted = at_work_ ? *at_work_ : std::stop_source();
+        ending_ = true;
+        // What comes before a write may be what it works on, as the opening of a project.
+        while (!posted_.empty() && !posted_.back().is_write) {
+            dropped.push_back(std::move(posted_.back()));
+            posted_.pop_back();
+        }
+        std::stop_source posted = at_work_ && !writing_ && posted_.empty() ? *at_work_ : std::stop_source();
         lock.unlock();
         posted.request_stop();
         lock.lock();
-        ended_.wait(lock, [this] { return !at_work_; });
+        ended_.wait(lock, [this] { return posted_.empty() && !at_work_; });
+        closed_ = true;
     }
 
  private:
@@ -134,6 +141,7 @@ class BackgroundQuery::Tasks : public std::enable_shared_from_this<Tasks> {
         Failed failed;
         BackgroundTask task;
         std::stop_source stop;
+        bool is_write = false;
     };
 
     void schedule() {
@@ -162,11 +170,13 @@ class BackgroundQuery::Tasks : public std::enable_shared_from_this<Tasks> {
         (idle ? idle_called_ : called_) = false;
         if (std::optional<Job> job = next(idle)) {
             at_work_ = job->stop;
+            writing_ = job->is_write;
             lock.unlock();
             run(*job);
             job.reset();  // what it holds goes before anybody hears that it is done
             lock.lock();
             at_work_.reset();
+            if (std::exchange(writing_, false)) pool_.countWrites(-1);
             ended_.notify_all();
         }
         schedule();
@@ -193,6 +203,8 @@ class BackgroundQuery::Tasks : public std::enable_shared_from_this<Tasks> {
     std::optional<std::stop_source> at_work_;
     bool called_ = false;  ///< the pool knows of what is to do
     bool idle_called_ = false;
+    bool writing_ = false;  ///< what is at work is a write
+    bool ending_ = false;   ///< nothing is added any more
     bool closed_ = false;
 };
 
@@ -208,6 +220,10 @@ BackgroundQuery::~BackgroundQuery() {
 
 std::stop_source BackgroundQuery::post(Work work, Failed failed) {
     return tasks_->add(Tasks::Kind::posted, std::move(work), std::move(failed), Former::finish);
+}
+
+void BackgroundQuery::write(Work work, Failed failed) {
+    tasks_->add(Tasks::Kind::write, std::move(work), std::move(failed), Former::finish);
 }
 
 void BackgroundQuery::ask(Work work, Failed failed, Former former) {

@@ -28,7 +28,8 @@ class BackgroundTask {
 
 /// What one object of the window has done in the background, one task at a time. Makes of answers calls on the thread
 /// it was made on, of exceptions messages there. Destruction stops the task at work, drops the others, waits, and
-/// nothing is called any more; so it is the last member of its owner. May be used on any thread.
+/// nothing is called any more; so it is the last member of its owner. What was to be written is written first, with
+/// what was posted before it. May be used on any thread.
 class BackgroundQuery {
  public:
     using Work = std::function<void(const BackgroundTask&)>;
@@ -46,6 +47,9 @@ class BackgroundQuery {
 
     /// A task that is done after those posted before. Answers what stops it; told it is even then.
     std::stop_source post(Work work, Failed failed = {});
+    /// The same for what a person did and is to be kept in a file: it is done even when this goes, and the window waits
+    /// for it before it is closed.
+    void write(Work work, Failed failed = {});
     /// A question. One that has not begun is replaced by a newer one; tasks that were posted are done before it.
     void ask(Work work, Failed failed = {}, Former former = Former::stop);
     /// Done when nothing else is to do, dropped or stopped as soon as something is. Takes the place of one not begun.

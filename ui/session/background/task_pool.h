@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -27,11 +28,17 @@ class TaskPool {
     void post(Task task);
     void postIdle(Task task);
 
+    /// How much of what people did is on its way into files: whoever ends the program, or leaves a file, waits until
+    /// there is none. Counted by BackgroundQuery::write(). On any thread.
+    int writesDue() const { return writes_due_; }
+    void countWrites(int more) { writes_due_ += more; }
+
  private:
     bool idleIsDue() const { return !idle_.empty() && !idle_at_work_; }
     void wake();
     void work();
 
+    std::atomic<int> writes_due_ = 0;
     std::mutex mutex_;
     std::condition_variable changed_;
     std::deque<Task> waited_for_;

@@ -42,8 +42,8 @@ std::vector<PresetLibrary::Preset> PresetLibrary::read(const PresetStore& store)
 }
 
 void PresetLibrary::post(Work work, QObject* receiver, Answer answer) {
-    query_.post([this, work = std::move(work), guard = QPointer(receiver),
-                 answer = std::move(answer)](const BackgroundTask& task) {
+    query_.write([this, work = std::move(work), guard = QPointer(receiver),
+                  answer = std::move(answer)](const BackgroundTask& task) {
         std::string name;
         QString problem;
         std::vector<Preset> presets;

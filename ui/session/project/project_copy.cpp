@@ -2,9 +2,8 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
-#include <cstdint>
-#include <map>
 #include <string>
+#include <utility>
 
 #include "core/error.h"
 #include "io/atomic_file.h"
@@ -16,20 +15,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kMostCopies = 4;
-
-/// Counters of the project, some of which grow with every step of labelling and reviewing.
-std::map<std::string, std::int64_t> countersOf(ProjectFile& project) {
-    std::map<std::string, std::int64_t> counters;
-    SQLite::Statement statement(project.database(), "SELECT kind, value FROM label_counter");
-    while (statement.executeStep()) counters[statement.getColumn(0).getString()] = statement.getColumn(1).getInt64();
-    return counters;
-}
-
-void writeCopy(ProjectFile& project, const fs::path& part) {
-    SQLite::Statement copy(project.database(), "VACUUM INTO ?");
-    copy.bind(1, part.string());
-    copy.exec();
-}
 
 /// Like renaming, but a file that somebody made meanwhile stays.
 void bringInPlace(const fs::path& part, const fs::path& target) {
@@ -43,32 +28,90 @@ void bringInPlace(const fs::path& part, const fs::path& target) {
     fs::rename(part, target);  // a file system without hard links
 }
 
-}  // namespace
-
-void copyProject(ProjectFile& project, const fs::path& target, StepsMeanwhile meanwhile) {
-    std::error_code failed;
-    if (fs::exists(target, failed))
-        throw Error(ErrorKind::output, target.string() + " is there already and is not replaced; choose another name");
-    const fs::path part = temporaryBeside(target);
-    bool whole = false;
+/// Does what may fail with the file, and says then which it is and what helps.
+template <class Work>
+void writing(const fs::path& target, Work&& work) {
     try {
-        for (int copies = 0; copies < kMostCopies && !whole; ++copies) {
-            fs::remove(part, failed);
-            const auto before = countersOf(project);
-            writeCopy(project, part);
-            whole = meanwhile == StepsMeanwhile::left_out || countersOf(project) == before;
-        }
-        if (whole) bringInPlace(part, target);
+        work();
     } catch (const std::exception& error) {
-        fs::remove(part, failed);
         throw Error(ErrorKind::output, "cannot write " + target.string() + ": " + error.what() +
                                            ". Choose a folder you may write to, with room for a copy.");
     }
-    if (whole) return;
+}
+
+fs::path partFor(const fs::path& target) {
+    std::error_code failed;
+    if (fs::exists(target, failed))
+        throw Error(ErrorKind::output, target.string() + " is there already and is not replaced; choose another name");
+    return temporaryBeside(target);
+}
+
+void writeCopy(ProjectFile& project, const fs::path& part) {
+    std::error_code failed;
     fs::remove(part, failed);
-    throw Error(ErrorKind::output, "cannot write " + target.string() +
-                                       ": labels or verdicts were changed each time it was copied. Save again while "
-                                       "nobody changes them.");
+    SQLite::Statement copy(project.database(), "VACUUM INTO ?");
+    copy.bind(1, part.string());
+    copy.exec();
+}
+
+}  // namespace
+
+void copyProject(ProjectFile& project, const fs::path& target, StepsMeanwhile meanwhile) {
+    if (meanwhile == StepsMeanwhile::copied_too) {
+        ProjectMove(project, target).finish();
+        return;
+    }
+    const fs::path part = partFor(target);
+    try {
+        writing(target, [&] {
+            writeCopy(project, part);
+            bringInPlace(part, target);
+        });
+    } catch (const Error&) {
+        std::error_code failed;
+        fs::remove(part, failed);
+        throw;
+    }
+}
+
+ProjectMove::ProjectMove(ProjectFile& project, fs::path target)
+    : project_(project), target_(std::move(target)), part_(partFor(target_)), others_(project_) {
+    try {
+        copy();
+    } catch (const Error&) {
+        std::error_code failed;
+        fs::remove(part_, failed);
+        throw;
+    }
+}
+
+ProjectMove::~ProjectMove() {
+    std::error_code failed;
+    fs::remove(part_, failed);
+}
+
+void ProjectMove::copy() {
+    writing(target_, [&] {
+        others_.changed();  // from here on
+        own_changes_ = project_.database().getTotalChanges();
+        writeCopy(project_, part_);
+    });
+}
+
+bool ProjectMove::changedSince() {
+    const bool by_others = others_.changed();
+    return by_others || project_.database().getTotalChanges() != own_changes_;
+}
+
+void ProjectMove::finish() {
+    for (int copies = 0; changedSince(); ++copies) {
+        if (copies == kMostCopies)
+            throw Error(ErrorKind::output, "cannot write " + target_.string() +
+                                               ": the project was changed each time it was copied. Save again while "
+                                               "nobody changes it.");
+        copy();
+    }
+    writing(target_, [&] { bringInPlace(part_, target_); });
 }
 
 }  // namespace eyrie::ui

@@ -79,6 +79,7 @@ class ProjectReader::Worker {
 
     void close() {
         opened_.reset();
+        move_.reset();
         if (!project_) return;
         try {
             RunStore(*project_).purgeRemoved();
@@ -141,14 +142,26 @@ class ProjectReader::Worker {
         });
     }
 
-    void saveAs(const std::filesystem::path& target) {
+    void copyForMove(const std::filesystem::path& target) {
+        move_.reset();
         guarded([this, &target](RunStore&) {
-            copyProject(*project_, target, StepsMeanwhile::copied_too);
-            ProjectFile copy = ProjectFile::open(target);
+            move_ = std::make_unique<ProjectMove>(*project_, target);
+            tell([this] { emit owner_.copiedForMove(); });
+        });
+    }
+
+    void move() {
+        if (!move_) return;
+        try {
+            move_->finish();
+            ProjectFile copy = ProjectFile::open(move_->target());
             close();
             adopt(std::move(copy));
             tell([this, lists = lists()] { emit owner_.movedTo(lists); });
-        });
+        } catch (const std::exception& error) {
+            move_.reset();
+            tell([this, message = QString::fromUtf8(error.what())] { emit owner_.moveFailed(message); });
+        }
     }
 
     /// Changes something and reads the lists anew.
@@ -251,6 +264,7 @@ class ProjectReader::Worker {
     ProjectReader& owner_;
     std::unique_ptr<ProjectFile> project_;
     std::unique_ptr<ProjectFile> opened_;  ///< it may take the place of the project
+    std::unique_ptr<ProjectMove> move_;    ///< of the project, to be gone on in
     std::unique_ptr<ChangeWatch> watch_;   ///< of the project
     bool any_running_ = false;             ///< when it was read last; that one was killed commits nothing
 };
@@ -263,6 +277,11 @@ ProjectReader::~ProjectReader() = default;
 template <class Work>
 void ProjectReader::post(Work work) {
     query_.post([worker = worker_.get(), work = std::move(work)](const BackgroundTask&) { work(*worker); });
+}
+
+template <class Work>
+void ProjectReader::write(Work work) {
+    query_.write([worker = worker_.get(), work = std::move(work)](const BackgroundTask&) { work(*worker); });
 }
 
 void ProjectReader::open(const std::filesystem::path& project) {
@@ -313,35 +332,40 @@ void ProjectReader::readTrack(int run_id, TrackId track, const std::shared_ptr<c
 }
 
 void ProjectReader::renameRun(int run_id, const QString& name) {
-    post([run_id, text = name.toStdString()](Worker& worker) {
+    write([run_id, text = name.toStdString()](Worker& worker) {
         worker.change([&](RunStore& store) { store.rename(run_id, text); });
     });
 }
 
 void ProjectReader::removeRun(int run_id) {
-    post([run_id](Worker& worker) { worker.change([&](RunStore& store) { store.remove(run_id); }); });
+    write([run_id](Worker& worker) { worker.change([&](RunStore& store) { store.remove(run_id); }); });
 }
 
 void ProjectReader::restoreRun(int run_id) {
-    post([run_id](Worker& worker) { worker.change([&](RunStore& store) { store.restore(run_id); }); });
+    write([run_id](Worker& worker) { worker.change([&](RunStore& store) { store.restore(run_id); }); });
 }
 
 void ProjectReader::storeSequence(const SequenceRecord& sequence) {
-    post([sequence](Worker& worker) { worker.change([&](RunStore&) { ensureSequence(worker.project(), sequence); }); });
+    write(
+        [sequence](Worker& worker) { worker.change([&](RunStore&) { ensureSequence(worker.project(), sequence); }); });
 }
 
 void ProjectReader::relocateSequence(int sequence_id, const std::string& path) {
-    post([sequence_id, path](Worker& worker) {
+    write([sequence_id, path](Worker& worker) {
         worker.change([&](RunStore&) { eyrie::relocateSequence(worker.project(), sequence_id, path); });
     });
 }
 
 void ProjectReader::saveCopy(const std::filesystem::path& target) {
-    post([target](Worker& worker) { worker.saveCopy(target); });
+    write([target](Worker& worker) { worker.saveCopy(target); });
 }
 
-void ProjectReader::saveAs(const std::filesystem::path& target) {
-    post([target](Worker& worker) { worker.saveAs(target); });
+void ProjectReader::copyForMove(const std::filesystem::path& target) {
+    post([target](Worker& worker) { worker.copyForMove(target); });
+}
+
+void ProjectReader::move() {
+    write([](Worker& worker) { worker.move(); });
 }
 
 }  // namespace eyrie::ui

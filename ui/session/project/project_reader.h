@@ -75,9 +75,12 @@ class ProjectReader : public QObject {
     void relocateSequence(int sequence_id, const std::string& path);
     /// A complete copy, also while a run writes. Answers with copied() or failed().
     void saveCopy(const std::filesystem::path& target);
-    /// A complete copy that is open from then on in place of the project. Answers with movedTo() or failed(): then the
-    /// former one is still open.
-    void saveAs(const std::filesystem::path& target);
+    /// Makes a complete copy, in which work is to go on. Answers with copiedForMove() or failed().
+    void copyForMove(const std::filesystem::path& target);
+    /// Puts that copy in place, with all that was done in the project since, and opens it in place of the project.
+    /// Answers with movedTo(), or moveFailed(): then the former one is still open. Nobody else of this program may
+    /// write into the former one from here on.
+    void move();
 
  signals:
     void opened(const ProjectLists& lists);
@@ -87,7 +90,9 @@ class ProjectReader : public QObject {
     void factsRead(const RunRecord& run, const RunFacts& facts);
     void trackRead(int run_id, TrackId track, const std::vector<TrackFrame>& states);
     void copied(const std::filesystem::path& target);
+    void copiedForMove();
     void movedTo(const ProjectLists& lists);
+    void moveFailed(const QString& message);
     void failed(const QString& message);
 
  private:
@@ -95,6 +100,8 @@ class ProjectReader : public QObject {
     std::shared_ptr<CorrectedTracksMemo> corrected_tracks_;
     template <class Work>
     void post(Work work);
+    template <class Work>
+    void write(Work work);
     std::unique_ptr<Worker> worker_;
     BackgroundQuery query_;  ///< last: stops before the worker goes
 };
