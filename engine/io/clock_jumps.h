@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/values/ids.h"
 
@@ -24,8 +25,8 @@ class ClockJumps {
     double usual_s_;
     std::optional<std::int64_t> last_us_;
     int count_ = 0;
-    FrameIndex first_ = 0;       ///< the frame behind the first jump
-    std::int64_t first_us_ = 0;  ///< by so much
+    std::int64_t first_us_ = 0;       ///< how far the first jump goes
+    std::vector<FrameIndex> frames_;  ///< behind the first few jumps
 };
 
 }  // namespace eyrie

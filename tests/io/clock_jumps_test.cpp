@@ -23,7 +23,13 @@ TEST(ClockJumps, AreToldWithTheirPlaceAndWhatToDo) {
 }
 
 TEST(ClockJumps, AreCounted) {
-    EXPECT_NE(textOf({0, 60'000, 60'040, 120'000, 180'000}).find("before frame 1 and 2× later,"), std::string::npos);
+    EXPECT_EQ(
+        textOf({0, 60'000, 60'040, 120'000, 180'000}),
+        "the clock of the video leaps ahead 3 times, before frames 1, 3 and 4 (by 1:00 the first time), and times "
+        "of events count that; unless the recording paused there, cut the video at those frames");
+    EXPECT_NE(textOf({0, 60'000, 120'000}).find("2 times, before frames 1 and 2 (by"), std::string::npos);
+    EXPECT_NE(textOf({0, 60'000, 120'000, 180'000, 240'000}).find("4 times, before frames 1, 2, 3 and others (by"),
+              std::string::npos);
 }
 
 TEST(ClockJumps, AreNoLostPicturesAndNoSlowCameras) {

@@ -17,7 +17,7 @@
 namespace eyrie::ui {
 namespace {
 
-// More at once would push the canvas away; the oldest makes room.
+// More at once would hide the picture; the oldest makes room.
 constexpr int kMostMessages = 4;
 constexpr int kInfoStays_ms = 15000;
 

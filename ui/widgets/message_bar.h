@@ -43,8 +43,9 @@ class MessageStrip : public QFrame {
     QLabel* label_;
 };
 
-/// Says what went wrong, where, and what to do, above the canvas and without blocking anything. Messages stay until
-/// they are dismissed, mere notices for a while; the newest is on top; the same one twice is counted, not repeated.
+/// Says what went wrong, where, and what to do, over the top of the canvas and without blocking anything. Messages stay
+/// until they are dismissed, mere notices for a while; the newest is on top; the same one twice is counted, not
+/// repeated.
 class MessageBar : public QWidget {
     Q_OBJECT
  public:

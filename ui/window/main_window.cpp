@@ -40,6 +40,7 @@
 #include "tune/inspect/stacks_panel.h"
 #include "tune/inspect/stage_chips.h"
 #include "tune/parameters/parameter_binding.h"
+#include "widgets/layout/top_overlay.h"
 #include "widgets/message_bar.h"
 #include "widgets/wiring.h"
 #include "window/bars/overlay_button.h"
@@ -167,9 +168,11 @@ void MainWindow::buildCentre() {
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
     live_strip_ = new LiveStrip(session_);
-    layout->addWidget(messages_);
     layout->addWidget(live_strip_);
     layout->addWidget(stack_, 1);
+    // Over the picture, not above it: what a person points at stays where it is when a message comes or goes.
+    messages_->setParent(centre);
+    new TopOverlay(*messages_, *stack_, centre);
     setCentralWidget(centre);
 }
 

@@ -4,6 +4,8 @@
 #include <array>
 #include <tuple>
 
+#include "events/review/stop_groups.h"
+
 namespace eyrie {
 namespace {
 
@@ -60,6 +62,23 @@ std::vector<QueueItem> reviewQueue(const std::vector<Event>& events, const std::
             place.item.group = QueueGroup::unsure;
         }
         places.push_back(place);
+    }
+    // What tells of one stop stands where the most urgent of it would.
+    const std::vector<std::optional<std::size_t>> stops = stopsOf(events);
+    const auto urgency = [](const Place& place) { return std::tie(place.item.group, place.rarity); };
+    std::map<std::size_t, Place> first_of_stop;
+    const std::size_t first_event = unsearched.size();
+    for (std::size_t i = 0; i < events.size(); ++i) {
+        if (!stops[i]) continue;
+        const Place& place = places[first_event + i];
+        const auto [first, is_new] = first_of_stop.try_emplace(*stops[i], place);
+        if (!is_new && urgency(place) < urgency(first->second)) first->second = place;
+    }
+    for (std::size_t i = 0; i < events.size(); ++i) {
+        if (!stops[i]) continue;
+        const Place& first = first_of_stop.at(*stops[i]);
+        places[first_event + i].item.group = first.item.group;
+        places[first_event + i].rarity = first.rarity;
     }
     std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
         return std::tie(a.item.group, a.rarity, a.frame) < std::tie(b.item.group, b.rarity, b.frame);

@@ -31,8 +31,8 @@ std::vector<bool> unsureEvents(const std::vector<Event>& events, const StoredTra
 
 /// All events and stretches, each once, judged or not: what could not be searched, what was lost in mid-picture, kinds
 /// of which there are at most `rare` (the rarest first), unsure ones, the rest; in time within each group. Those
-/// lost are never rare. `unsure` is as long as `events`. Order it when events change, not with every verdict, so that
-/// things stay where they are.
+/// lost are never rare. Events of one stop (stopsOf()) are in the group of the one that comes first. `unsure` is as
+/// long as `events`. Order it when events change, not with every verdict, so that things stay where they are.
 std::vector<QueueItem> reviewQueue(const std::vector<Event>& events, const std::vector<FrameSpan>& unsearched,
                                    const std::vector<bool>& unsure, const ReviewOptions& options = {});
 

@@ -6,6 +6,8 @@
 #include <QApplication>
 #include <QClipboard>
 #include <QElapsedTimer>
+#include <QFocusEvent>
+#include <QImage>
 #include <QLabel>
 #include <QSignalSpy>
 #include <QTest>
@@ -209,6 +211,23 @@ class SweepPanelTest : public QObject {
         panel.form().setAxis(0, QStringLiteral("sliding_window.descriptor"), QStringLiteral("dct"));
         panel.form().setAxis(1, QStringLiteral("gradient.quantile"), QStringLiteral("0.1,0.2"));
         QVERIFY2(panel.minimumSizeHint().width() <= 300, qPrintable(QString::number(panel.minimumSizeHint().width())));
+    }
+
+    void whoUsesKeysSeesThatTheChartHasThem() {
+        SweepChart chart;
+        chart.resize(300, 200);
+        const auto* ring = chart.findChild<QWidget*>(QStringLiteral("focus_ring"));
+        QVERIFY(ring != nullptr && !ring->isVisibleTo(&chart));
+        QFocusEvent in(QEvent::FocusIn, Qt::TabFocusReason);
+        QApplication::sendEvent(&chart, &in);
+        QVERIFY(ring->isVisibleTo(&chart));
+        QCOMPARE(ring->geometry(), chart.rect());
+        QVERIFY(ring->testAttribute(Qt::WA_TransparentForMouseEvents));
+        const QImage picture = chart.grab().toImage();
+        QCOMPARE(picture.pixelColor(picture.width() / 2, 1).rgb(), chart.palette().color(QPalette::Highlight).rgb());
+        QFocusEvent out(QEvent::FocusOut, Qt::TabFocusReason);
+        QApplication::sendEvent(&chart, &out);
+        QVERIFY(!ring->isVisibleTo(&chart));
     }
 
     void aPointGoesIntoTheNextRun() {

@@ -114,17 +114,22 @@ class TuningTest : public QObject {
         QVERIFY(waitFor([&] { return window_->canvas().frame().result != stored; }));
         QVERIFY(waitFor([&] { return preview().framesLeft() == 0; }));
         QVERIFY(preview().view()->previewed.tracks_final);
-        // Lists that still tell of the run say so.
-        bool marked = false;
-        for (const DockId id : allDocks())
-            marked = marked || window_->docks().dock(id)->windowTitle().contains(QStringLiteral("(stored)"));
-        QVERIFY(marked);
+        // Lists that still tell of the run say so; what tells nothing of it is as it was.
+        const auto is_marked = [&](DockId id) {
+            return window_->docks().dock(id)->windowTitle().contains(QStringLiteral("(stored)"));
+        };
+        for (const DockId id : {DockId::tracks, DockId::events, DockId::inspector, DockId::stages, DockId::why})
+            QVERIFY2(is_marked(id), qPrintable(window_->docks().dock(id)->windowTitle()));
+        for (const DockId id : {DockId::runs, DockId::parameters, DockId::sweeps, DockId::stage_times,
+                                DockId::evaluation, DockId::errors, DockId::metadata, DockId::objects})
+            QVERIFY2(!is_marked(id), qPrintable(window_->docks().dock(id)->windowTitle()));
         // Another frame is previewed, too.
         session().goToFrame(41);
         QVERIFY(waitFor([&] { return preview().view() && preview().view()->frame == 41; }));
         tuning().previewBar().commands().discard();
         QVERIFY(!preview().active());
         QVERIFY(waitFor([&] { return window_->canvas().frame().result == session().viewFrame().result; }));
+        QVERIFY(!is_marked(DockId::tracks) && !is_marked(DockId::why));
         QCOMPARE(row("clustering.min_members")->value(), QStringLiteral("3"));
     }
 

@@ -62,6 +62,23 @@ class EventsWindowTest : public QObject {
         QVERIFY(!window->timeline().marks().empty());
     }
 
+    void marksOnTheTimelineAreThoseThatTheFilterLineLeaves() {
+        const auto window = windowWithEvents();
+        QVERIFY(window);
+        EventsPanel& panel = window->events().panel();
+        const auto marks = [&] { return static_cast<int>(window->timeline().marks().size()); };
+        const int all = window->events().model().rowCount();
+        QTRY_COMPARE_WITH_TIMEOUT(marks(), all, kPatience_ms);
+        panel.setFilterText(QStringLiteral("over speed"));
+        const int left = panel.table()->model()->rowCount();
+        QVERIFY(left > 0 && left < all);
+        QTRY_COMPARE_WITH_TIMEOUT(marks(), left, kPatience_ms);
+        panel.setFilterText(QStringLiteral("no event has this"));
+        QTRY_COMPARE_WITH_TIMEOUT(marks(), 0, kPatience_ms);
+        panel.setFilterText(QString());
+        QTRY_COMPARE_WITH_TIMEOUT(marks(), all, kPatience_ms);
+    }
+
     void listsOfEventsAndTracksShowTheirVehicles() {
         const auto window = windowWithEvents();
         QVERIFY(window);

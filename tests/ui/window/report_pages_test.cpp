@@ -15,9 +15,9 @@ namespace eyrie::ui::report_pages_test {
 
 namespace {
 
-constexpr double kPage = 1000;
+constexpr double kWidth = 700;
 
-/// Events as reports tell them: a heading, a still beside facts, and a row of sketches.
+/// Events as reports tell them: a heading, a still beside facts, and a row of sketches; on one endless page.
 void tellEvents(QTextDocument& document, int count, int still_height) {
     QImage picture(4, 4, QImage::Format_RGB32);
     picture.fill(Qt::gray);
@@ -33,12 +33,14 @@ void tellEvents(QTextDocument& document, int count, int still_height) {
                     .arg(still_height);
     document.setHtml(html + QStringLiteral("<h2>The ground</h2><p>From above.</p>"));
     document.setDocumentMargin(0);
-    document.setPageSize(QSizeF(700, kPage));
+    document.setTextWidth(kWidth);
 }
 
 /// Highest and lowest edge of each event.
-std::vector<std::pair<double, double>> edgesOf(const QTextDocument& document) {
-    std::vector<std::pair<double, double>> edges;
+using Edges = std::vector<std::pair<double, double>>;
+
+Edges edgesOf(const QTextDocument& document) {
+    Edges edges;
     for (QTextBlock block = document.begin(); block.isValid(); block = block.next()) {
         const QRectF place = document.documentLayout()->blockBoundingRect(block);
         const int heading = block.blockFormat().headingLevel();
@@ -49,8 +51,16 @@ std::vector<std::pair<double, double>> edgesOf(const QTextDocument& document) {
     return edges;
 }
 
-int pageOf(double y) {
-    return static_cast<int>(std::floor(y / kPage));
+int pageOf(double y, double page) {
+    return static_cast<int>(std::floor(y / page));
+}
+
+/// How many events lie on more than one page.
+std::ptrdiff_t tornIn(const QTextDocument& document, double page) {
+    const Edges edges = edgesOf(document);
+    return std::count_if(edges.begin(), edges.end(), [page](const auto& edge) {
+        return pageOf(edge.first, page) != pageOf(edge.second - 1, page);
+    });
 }
 
 }  // namespace
@@ -60,29 +70,42 @@ class ReportPagesTest : public QObject {
     Q_OBJECT
 
  private slots:
+    // Fonts differ, and the heights of texts with them: pages are as high as these events want them.
     void anEventIsOnOnePage() {
         QTextDocument document;
         tellEvents(document, 7, 250);
-        const auto torn = [&] {
-            const auto edges = edgesOf(document);
-            return std::count_if(edges.begin(), edges.end(),
-                                 [](const auto& edge) { return pageOf(edge.first) != pageOf(edge.second - 1); });
-        };
-        QVERIFY2(torn() > 0, "otherwise this shows nothing");
-        keepTogether(document, kPage);
-        QCOMPARE(torn(), 0);
-        // As many as fit share a page.
-        const auto edges = edgesOf(document);
+        const Edges endless = edgesOf(document);
+        QCOMPARE(endless.size(), std::size_t(7));
+        const double page = (endless[2].first + endless[2].second) / 2;  // ends amid the third event
+        const double gap = endless[2].first - endless[1].second;
+        document.setPageSize(QSizeF(kWidth, page));
+        QVERIFY2(tornIn(document, page) > 0, "otherwise this shows nothing");
+        keepTogether(document, page);
+        QCOMPARE(tornIn(document, page), std::ptrdiff_t(0));
+        // As many as fit share a page: whichever begins the next one had no room.
+        const Edges edges = edgesOf(document);
         QCOMPARE(edges.size(), std::size_t(7));
-        QCOMPARE(pageOf(edges.back().first), 3);
+        QCOMPARE(pageOf(edges[1].first, page), 0);
+        QCOMPARE(pageOf(edges[2].first, page), 1);
+        for (std::size_t i = 1; i < edges.size(); ++i) {
+            const int before = pageOf(edges[i - 1].second - 1, page);
+            if (pageOf(edges[i].first, page) == before) continue;
+            const double room = (before + 1) * page - edges[i - 1].second;
+            const double wanted = gap + endless[i].second - endless[i].first;
+            QVERIFY2(room < wanted + 1, qPrintable(QStringLiteral("event %1 had room").arg(i)));
+        }
     }
 
     void whatIsHigherThanAPageStaysWhereItIs() {
         QTextDocument document;
         tellEvents(document, 3, 950);
-        const int pages = document.pageCount();
-        keepTogether(document, kPage);
-        QCOMPARE(document.pageCount(), pages);
+        const Edges endless = edgesOf(document);
+        const double page = 0.95 * (endless[1].second - endless[1].first);
+        document.setPageSize(QSizeF(kWidth, page));
+        const Edges before = edgesOf(document);
+        QVERIFY2(tornIn(document, page) > 0, "otherwise this shows nothing");
+        keepTogether(document, page);
+        QVERIFY(edgesOf(document) == before);
     }
 };
 

@@ -1,11 +1,17 @@
+#include <sys/stat.h>
+
 #include <QApplication>
 #include <QLineEdit>
 #include <QTableView>
 #include <QTest>
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <future>
+#include <iterator>
+#include <utility>
 
 #include "canvas/layers/zone_layer.h"
 #include "canvas/video_view.h"
@@ -260,7 +266,6 @@ class ZonesWindowTest : public QObject {
         ZoneReview& review = window->events().zones();
         const auto at = [this](const char* name) { return QString::fromStdString((*home_ / name).string()); };
         review.writeFile(at("zones.json"));
-        QVERIFY2(!tells(*window, QStringLiteral("--zone")), "the window does not wait for the disk");
         QTRY_VERIFY_WITH_TIMEOUT(tells(*window, QStringLiteral("--zone")), kPatience_ms);
         QVERIFY(std::filesystem::exists(*home_ / "zones.json"));
         review.readFile(at("zones.json"));
@@ -287,6 +292,28 @@ class ZonesWindowTest : public QObject {
         review.writeFile(at("last.json"));
         window.reset();
         QVERIFY2(std::filesystem::exists(*home_ / "last.json"), "closing the window loses nothing");
+    }
+
+    void theWindowDoesNotWaitForTheDisk() {
+        const auto window = windowWithRun();
+        QVERIFY(window);
+        drawZone(*window);
+        const std::filesystem::path slow = *home_ / "slow.json";
+        QVERIFY(mkfifo(slow.c_str(), 0600) == 0);
+        std::promise<void> went_on;
+        // A disk that takes nothing before the window has gone on, or has waited for it in vain.
+        auto disk = std::async(std::launch::async, [slow, gone_on = went_on.get_future()] {
+            const auto waited = gone_on.wait_for(std::chrono::milliseconds(kPatience_ms));
+            std::ifstream file(slow);
+            const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+            return std::pair(waited == std::future_status::ready, text);
+        });
+        window->events().zones().writeFile(QString::fromStdString(slow.string()));
+        went_on.set_value();
+        const auto [window_went_on, text] = disk.get();
+        QVERIFY(window_went_on);
+        QVERIFY(text.find("zone 1") != std::string::npos);
+        QTRY_VERIFY_WITH_TIMEOUT(tells(*window, QStringLiteral("--zone")), kPatience_ms);
     }
 
     void aRenamedZoneKeepsItsVerdicts() {

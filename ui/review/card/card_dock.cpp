@@ -58,7 +58,7 @@ std::optional<CardSubject> CardDock::subjectOf(int id) const {
     const auto& found = model.found();
     if (entry == nullptr || !found) return std::nullopt;
     const Event* event = found->eventAt(entry->position);
-    QStringList words{eventKindText(*found, entry->position),
+    QStringList words{eventRowText(*found, entry->position, entry->others),
                       model.index(model.rowOf(id), EventsModel::time_column).data().toString()};
     if (event != nullptr)
         words << (event->tracks.size() == 1 ? tr("track %1") : tr("tracks %1"))

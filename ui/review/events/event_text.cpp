@@ -75,6 +75,26 @@ QString eventKindText(const FoundEvents& found, std::size_t position) {
                             : listedKindText(listedKindAt(found, position));
 }
 
+QString eventRowText(const FoundEvents& found, std::size_t position, const std::vector<std::size_t>& others) {
+    if (others.empty()) return eventKindText(found, position);
+    std::array<const Event*, 3> steps{};  // as they happen, whatever their order in the queue
+    const auto take = [&](std::size_t place) {
+        const Event* event = found.eventAt(place);
+        if (event == nullptr) return;
+        steps[event->kind == EventKind::stops ? 0 : event->kind == EventKind::stands ? 1 : 2] = event;
+    };
+    take(position);
+    for (const std::size_t place : others) take(place);
+    QStringList words;
+    if (steps[0] != nullptr) words << eventWord(QT_TRANSLATE_NOOP("Events", "stops"));
+    if (steps[1] != nullptr)
+        words << eventWord(QT_TRANSLATE_NOOP("Events", "stands %1")).arg(QString::fromStdString(figureText(*steps[1])));
+    if (steps[2] != nullptr)
+        words << (steps[0] != nullptr ? eventWord(QT_TRANSLATE_NOOP("Events", "starts again"))
+                                      : eventWord(QT_TRANSLATE_NOOP("Events", "starts")));
+    return capitalised(words.join(QStringLiteral(", ")));
+}
+
 QString eventKindText(const ReviewSubject& subject) {
     return kindText(subject.kind ? static_cast<int>(*subject.kind) : kEventKinds, subject.zone, subject.sense);
 }

@@ -5,6 +5,7 @@
 #include <QString>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "review/events/found_events.h"
 
@@ -15,6 +16,9 @@ namespace eyrie::ui {
 QString listedKindText(int listed_kind);
 /// "Enters yard", "Crosses gate to the left".
 QString eventKindText(const FoundEvents& found, std::size_t position);
+/// "Stops, stands 12.4 s, starts again": an event with those of the same stop that stand in its row; without such as
+/// above.
+QString eventRowText(const FoundEvents& found, std::size_t position, const std::vector<std::size_t>& others);
 /// The same of what a verdict is on.
 QString eventKindText(const ReviewSubject& subject);
 /// "12", the number that eyrie-cli has it under; empty for a stretch that could not be searched.

@@ -143,7 +143,7 @@ void EventsDock::bindCommands() {
                   {actions.relevant, [this] { judge(Judgement::relevant); }},
                   {actions.not_relevant, [this] { judge(Judgement::not_relevant); }},
                   {actions.unsure, [this] { judge(Judgement::unsure); }},
-                  {actions.take_back, [this] { review_->judge(selectedPlaces(), Judgement::open); }},
+                  {actions.take_back, [this] { review_->judge(placesInRows(), Judgement::open); }},
                   {actions.star, [this] { toggleStars(); }},
                   {actions.note,
                    [this] {
@@ -263,7 +263,7 @@ void EventsDock::showMarks() {
     const bool dark = isDark(parts_.timeline.palette());
     for (int row = 0; active_ && found && row < model_->rowCount(); ++row) {
         const EventEntry& entry = *model_->recordAt(row);
-        if (!panel_->isListed(entry)) continue;
+        if (!panel_->isShown(entry)) continue;
         marks.push_back({entry.id, found->frameAt(entry.position), judgementColour(entry.judgement, dark),
                          weightOf(entry.judgement)});
         const FrameSpan frames = found->framesAt(entry.position);
@@ -324,7 +324,7 @@ std::optional<std::size_t> EventsDock::currentPlace() const {
 
 void EventsDock::chooseAndShow(std::optional<int> id) {
     if (!id) return;
-    panel_->selectId(*id);
+    panel_->selectId(model_->rowIdOf(*id));
     show(*id);
 }
 
@@ -334,7 +334,7 @@ void EventsDock::show(int id) {
     const FoundEvents& found = *model_->found();
     const Event* event = found.eventAt(*place);
     parts_.session.playback().pause();
-    tell_shown_(id);  // first: what shows it need not show its track alone before
+    tell_shown_(model_->rowIdOf(id));  // first: what shows it need not show its track alone before
     if (event != nullptr && !event->tracks.empty())
         parts_.session.selectTrack(event->tracks.front());
     else
@@ -386,6 +386,16 @@ std::vector<std::size_t> EventsDock::selectedPlaces() const {
     return places;
 }
 
+std::vector<std::size_t> EventsDock::placesInRows() const {
+    std::vector<std::size_t> places;
+    for (const std::size_t place : selectedPlaces()) {
+        const std::vector<std::size_t>& others = model_->recordAt(static_cast<int>(place))->others;
+        places.push_back(place);
+        places.insert(places.end(), others.begin(), others.end());
+    }
+    return places;
+}
+
 void EventsDock::judge(Judgement judgement) {
     const QList<int> ids = panel_->selectedIds();
     if (ids.isEmpty()) {
@@ -394,7 +404,7 @@ void EventsDock::judge(Judgement judgement) {
     }
     // Asked for before: judged, rows may vanish from the list.
     const std::optional<int> next = panel_->nextOpen(ids);
-    const std::vector<std::size_t> places = selectedPlaces();
+    const std::vector<std::size_t> places = placesInRows();
     const bool all_so = std::all_of(places.begin(), places.end(), [&](std::size_t place) {
         const Verdict* verdict = review_->verdictAt(place);
         return verdict != nullptr && verdict->judgement == judgement;

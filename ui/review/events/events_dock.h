@@ -92,8 +92,10 @@ class EventsDock : public QObject {
     void chooseAndShow(std::optional<int> id);
     void judge(Judgement judgement);
     void toggleStars();
-    /// Selected events as places in the queue.
+    /// Selected rows as places in the queue: what is written, starred and shown belongs to the first event of each.
     std::vector<std::size_t> selectedPlaces() const;
+    /// The same with all events that stand in these rows: what is judged.
+    std::vector<std::size_t> placesInRows() const;
     std::optional<std::size_t> placeOf(int id) const;
     void bringIntoView(QPointF place);
     /// Of a long video the timeline shows what happened and a little around it.

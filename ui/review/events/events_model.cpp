@@ -1,6 +1,7 @@
 #include "review/events/events_model.h"
 
 #include <QStringList>
+#include <algorithm>
 #include <set>
 #include <utility>
 
@@ -19,6 +20,12 @@ void takeOver(EventEntry& entry, const Verdict* verdict) {
     entry.note = verdict != nullptr ? QString::fromStdString(verdict->note) : QString();
     entry.person = verdict != nullptr ? QString::fromStdString(verdict->person) : QString();
     entry.judged_utc = verdict != nullptr ? verdict->when_utc : std::string();
+    entry.tagged = verdict != nullptr && !verdict->tags.empty();
+}
+
+/// Whether nothing would be lost in the row of the other.
+bool saysNoMore(const EventEntry& entry, const EventEntry& other) {
+    return entry.judgement == other.judgement && !entry.starred && !entry.tagged && entry.note.isEmpty();
 }
 
 }  // namespace
@@ -28,11 +35,12 @@ void EventsModel::setEvents(const std::shared_ptr<const FoundEvents>& found,
     std::vector<EventEntry> entries;
     const std::vector<int> ids = found ? idsOf(*found) : std::vector<int>();
     for (std::size_t i = 0; i < ids.size(); ++i) {
-        entries.push_back({ids[i], i, Judgement::open, false, {}, {}, {}});
+        entries.push_back({ids[i], i, Judgement::open, false, {}, {}, {}, false, {}, {}});
         takeOver(entries.back(), verdict_at(i));
     }
     const bool known_before = scale().gsd_known;
     found_ = found;
+    joinStops(entries);
     mergeRecords(std::move(entries));
     if (scale().gsd_known != known_before) emit headerDataChanged(Qt::Horizontal, lowest_column, highest_column);
 }
@@ -43,6 +51,37 @@ void EventsModel::setVerdict(std::size_t position, const Verdict* verdict) {
     EventEntry entry = *recordAt(row);
     takeOver(entry, verdict);
     changeRecord(row, std::move(entry));
+}
+
+void EventsModel::joinStops(std::vector<EventEntry>& entries) const {
+    std::map<std::size_t, std::size_t> first_of_stop;
+    for (EventEntry& entry : entries) {
+        entry.others.clear();
+        entry.in_row_of.reset();
+        const auto stop = found_->stopAt(entry.position);
+        if (!stop || !is_listed_(entry)) continue;
+        const auto [first, is_new] = first_of_stop.try_emplace(*stop, entry.position);
+        EventEntry& row = entries[first->second];
+        if (is_new || !saysNoMore(entry, row)) continue;
+        row.others.push_back(entry.position);
+        entry.in_row_of = row.position;
+    }
+}
+
+void EventsModel::joinStops() {
+    if (!found_) return;
+    std::vector<EventEntry> joined = records();
+    joinStops(joined);
+    for (int row = 0; row < rowCount(); ++row) {
+        EventEntry& entry = joined[static_cast<std::size_t>(row)];
+        if (entry.others != recordAt(row)->others || entry.in_row_of != recordAt(row)->in_row_of)
+            changeRecord(row, std::move(entry));
+    }
+}
+
+int EventsModel::rowIdOf(int id) const {
+    const EventEntry* entry = recordAt(rowOf(id));
+    return entry != nullptr && entry->in_row_of ? recordAt(static_cast<int>(*entry->in_row_of))->id : id;
 }
 
 void EventsModel::setDark(bool dark) {
@@ -117,6 +156,8 @@ QVariant EventsModel::data(const QModelIndex& index, int role) const {
 
 QString EventsModel::tipOf(const EventEntry& entry) const {
     QStringList lines{eventTipText(*found_, entry.position)};
+    for (const std::size_t place : entry.others)
+        lines << tr("With it: %1").arg(eventTipText(*found_, place).section(QLatin1Char('\n'), 0, 0));
     const QString moment = clock_.text(found_->framesAt(entry.position).first);
     if (!moment.isEmpty()) lines << tr("%1, %2 in the video").arg(moment, eventClockText(*found_, entry.position));
     const QString said = judgedText(entry.judgement, entry.person, entry.judged_utc);
@@ -125,7 +166,23 @@ QString EventsModel::tipOf(const EventEntry& entry) const {
 }
 
 std::optional<double> EventsModel::extremeOf(const EventEntry& entry, int column) const {
-    return eventSpeed(*found_, entry.position, column == lowest_column ? &SpeedRange::lowest : &SpeedRange::highest);
+    const bool lowest = column == lowest_column;
+    const auto speed_at = [&](std::size_t place) {
+        return eventSpeed(*found_, place, lowest ? &SpeedRange::lowest : &SpeedRange::highest);
+    };
+    std::optional<double> extreme = speed_at(entry.position);
+    for (const std::size_t place : entry.others) {
+        const auto speed = speed_at(place);
+        if (speed)
+            extreme = lowest ? std::min(*speed, extreme.value_or(*speed)) : std::max(*speed, extreme.value_or(0));
+    }
+    return extreme;
+}
+
+std::optional<double> EventsModel::secondsOf(const EventEntry& entry) const {
+    std::optional<double> longest = eventSeconds(*found_, entry.position);
+    for (const std::size_t place : entry.others) longest = std::max(longest, eventSeconds(*found_, place));
+    return longest;
 }
 
 QString EventsModel::textOf(const EventEntry& entry, int column) const {
@@ -135,7 +192,7 @@ QString EventsModel::textOf(const EventEntry& entry, int column) const {
         case time_column:
             return clock_.timeOr(found_->framesAt(entry.position).first, eventClockText(*found_, entry.position));
         case kind_column:
-            return eventKindText(*found_, entry.position);
+            return eventRowText(*found_, entry.position, entry.others);
         case tracks_column:
             return eventTracksText(*found_, entry.position);
         case figure_column:
@@ -145,7 +202,7 @@ QString EventsModel::textOf(const EventEntry& entry, int column) const {
         case note_column:
             return entry.note;
         case duration_column: {
-            const auto seconds = eventSeconds(*found_, entry.position);
+            const auto seconds = secondsOf(entry);
             return seconds ? durationText(*seconds) : QString();
         }
         case lowest_column:
@@ -173,7 +230,7 @@ QVariant EventsModel::sortValueOf(const EventEntry& entry, int column) const {
         case verdict_column:
             return static_cast<int>(entry.judgement);
         case duration_column:
-            return eventSeconds(*found_, entry.position).value_or(0);
+            return secondsOf(entry).value_or(0);
         case lowest_column:
         case highest_column:
             return extremeOf(entry, column).value_or(-1);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "review/events/found_events.h"
@@ -14,7 +15,8 @@
 
 namespace eyrie::ui {
 
-/// A row: an event, or a stretch that could not be searched, with what is said about it.
+/// An event, or a stretch that could not be searched, with what is said about it. Each is a row, but for events of the
+/// same stop of which the same is said: the first of them has a row for all.
 struct EventEntry {
     int id = 0;                ///< the same event keeps it when thresholds change, and while a live run goes on
     std::size_t position = 0;  ///< in the queue
@@ -23,6 +25,9 @@ struct EventEntry {
     QString note;
     QString person;          ///< who said it last; empty: nobody, or nobody knows
     std::string judged_utc;  ///< and when, ISO 8601
+    bool tagged = false;
+    std::vector<std::size_t> others = {};       ///< places in the queue of events that stand in its row, too
+    std::optional<std::size_t> in_row_of = {};  ///< the place of the event in whose row it stands; nothing: its own
 };
 
 /// The events of a run in the order of the queue, one row each. Texts are made when they are shown.
@@ -52,6 +57,14 @@ class EventsModel : public RecordModel<EventEntry> {
                    const std::function<const Verdict*(std::size_t)>& verdict_at);
     /// What is said about one event.
     void setVerdict(std::size_t position, const Verdict* verdict);
+    /// Who tells which events are listed, so that none that is stands in a row of one that is not; to be followed by
+    /// joinStops() whenever that changes.
+    void setListed(std::function<bool(const EventEntry&)> is_listed) { is_listed_ = std::move(is_listed); }
+    /// Puts events of one stop in one row where the same is said of them. Not done by setVerdict(), so that several may
+    /// be judged one after the other.
+    void joinStops();
+    /// The id of the row in which an event stands.
+    int rowIdOf(int id) const;
     /// Times of the day instead of those of the video, where they are known. To be given again when they are others.
     void setClock(ClockOfFrames clock);
     const ClockOfFrames& clock() const { return clock_; }
@@ -78,7 +91,10 @@ class EventsModel : public RecordModel<EventEntry> {
 
     /// By position. Takes over those of the list that is shown, see FoundEvents::former.
     std::vector<int> idsOf(const FoundEvents& found);
+    void joinStops(std::vector<EventEntry>& entries) const;
     QString textOf(const EventEntry& entry, int column) const;
+    /// The longest of what stands in the row.
+    std::optional<double> secondsOf(const EventEntry& entry) const;
     QVariant sortValueOf(const EventEntry& entry, int column) const;
     /// Of the run that is listed; the default where none is.
     SceneScale scale() const { return found_ ? found_->run->footage.scale : SceneScale(); }
@@ -89,6 +105,7 @@ class EventsModel : public RecordModel<EventEntry> {
     std::shared_ptr<const FoundEvents> found_;
     std::map<EventIdentity, int> ids_;
     int next_id_ = 1;
+    std::function<bool(const EventEntry&)> is_listed_ = [](const EventEntry&) { return true; };
     bool dark_ = false;
     ClockOfFrames clock_;
 };

@@ -68,7 +68,8 @@ EventsPanel::EventsPanel(EventsModel* model, const WindowActions& actions, QWidg
     buildButtons();
     rows->addWidget(thresholds_, 3);
     thresholds_->hide();
-    whenAny(&proxy(), this, &EventsPanel::showHeader, &TableSortProxy::filtered);
+    events_->setListed([this](const EventEntry& entry) { return isListed(entry); });
+    whenAny(&proxy(), this, &EventsPanel::rowsFiltered, &TableSortProxy::filtered);
     filterEvents();
 }
 
@@ -185,11 +186,22 @@ bool EventsPanel::isWanted(const EventEntry& entry) const {
 
 void EventsPanel::filterEvents() {
     thresholds_->setKindsShown(*kinds_);
+    events_->joinStops();
     proxy().setRowFilter([this](int row) {
         const EventEntry* entry = events_->recordAt(row);
-        return entry != nullptr && isListed(*entry);
+        return entry != nullptr && !entry->in_row_of && isListed(*entry);
     });
+}
+
+void EventsPanel::rowsFiltered() {
+    showHeader();
     commands_.listing_changed();
+}
+
+bool EventsPanel::isShown(const EventEntry& entry) const {
+    const auto* shown = static_cast<const TableSortProxy*>(table()->model());
+    const auto row = static_cast<int>(entry.in_row_of.value_or(entry.position));
+    return shown->mapFromSource(events_->index(row, 0)).isValid();
 }
 
 QString EventsPanel::hiddenText() const {
@@ -215,6 +227,7 @@ void EventsPanel::showHidden() {
 void EventsPanel::showCounts(std::size_t left, const QStringList& corrections) {
     left_ = left;
     left_corrections_ = corrections;
+    events_->joinStops();
     EventKindsButton::Counts counts{};
     for (int row = 0; row < events_->rowCount(); ++row)
         ++counts.at(static_cast<std::size_t>(listedKindAt(*events_->found(), events_->recordAt(row)->position)));
@@ -237,7 +250,9 @@ void EventsPanel::showAsOf(std::optional<FrameIndex> frame) {
 
 QString EventsPanel::countedText() const {
     const int all = events_->rowCount();
-    const int listed = table()->model()->rowCount();
+    int listed = 0;  // events, of which several may stand in a row
+    for (int row = 0; row < table()->model()->rowCount(); ++row)
+        listed += 1 + static_cast<int>(shownAt(row)->others.size());
     int judged = 0;
     int hidden_by_query = 0;
     for (int row = 0; row < all; ++row) {
@@ -286,6 +301,10 @@ void EventsPanel::showHeader() {
     header_->setTextInteractionFlags(left.isEmpty() ? Qt::TextInteractionFlags(Qt::NoTextInteraction)
                                                     : Qt::LinksAccessibleByMouse | Qt::LinksAccessibleByKeyboard);
     QStringList tips;
+    if (events_->rowCount() > 0)
+        tips << tr(
+            "Events are counted, not rows: that a vehicle stops, stands and starts again are three events in one row, "
+            "judged together.");
     if (query_ != nullptr)
         tips << tr(
             "The chips above the list of tracks narrow the events, too: one is listed where one of its tracks "
@@ -313,6 +332,7 @@ std::vector<int> EventsPanel::listedNumbers() const {
     for (int row = 0; row < table()->model()->rowCount(); ++row) {
         const EventEntry* entry = shownAt(row);
         if (const auto number = events_->found()->numberAt(entry->position)) numbers.push_back(*number);
+        for (const std::size_t place : entry->others) numbers.push_back(*events_->found()->numberAt(place));
     }
     return numbers;
 }

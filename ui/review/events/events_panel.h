@@ -63,8 +63,9 @@ class EventsPanel : public TablePanel {
     /// "214 of 380 judged", "61 % of the time seen", "38 of 380 shown, all judged", "12 hidden by the filter on tracks"
     /// and what could not be carried over; "as of frame 1,234" of a run that works still.
     QString headerText() const;
-    /// Whether an event is listed by kind, verdict and the query; words in the filter line are not asked.
-    bool isListed(const EventEntry& entry) const;
+    /// Whether an event of the model is shown, in a row of its own or in that of its stop: by kind, verdict, the query
+    /// and the words in the filter line.
+    bool isShown(const EventEntry& entry) const;
 
     /// Id of the row `rows` below (above) the current one in the order shown, the first one if none is current;
     /// nothing at the end.
@@ -95,6 +96,9 @@ class EventsPanel : public TablePanel {
     void buildButtons();
     void filterEvents();
     void showHeader();
+    void rowsFiltered();
+    /// By kind, verdict and the query; words in the filter line are not asked.
+    bool isListed(const EventEntry& entry) const;
     bool isWanted(const EventEntry& entry) const;
     bool passesQuery(const EventEntry& entry) const;
     QString countedText() const;

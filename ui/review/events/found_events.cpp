@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "events/review/stop_groups.h"
+
 namespace eyrie::ui {
 
 namespace {
@@ -39,6 +41,7 @@ std::shared_ptr<const FoundEvents> inOrder(const std::shared_ptr<const StoredTra
     found->run = run;
     found->events = std::move(findings.events);
     found->event_speeds = std::move(findings.event_speeds);
+    found->stops = stopsOf(found->events);
     found->zones = zones;
     found->unsearched = unsearchedStretches(run->footage);
     found->carried = carryOver(verdicts, found->events, found->unsearched, *run, zones);

@@ -17,6 +17,7 @@ struct FoundEvents {
     std::shared_ptr<const StoredTracks> run;
     std::vector<Event> events;
     std::vector<std::optional<SpeedRange>> event_speeds;  ///< as TrackFindings has them
+    std::vector<std::optional<std::size_t>> stops;        ///< by event: which stop it is of, see stopsOf()
     std::vector<FrameSpan> unsearched;
     std::vector<Zone> zones;  ///< that were watched
     std::vector<QueueItem> queue;
@@ -42,6 +43,11 @@ struct FoundEvents {
         const Event* event = eventAt(position);
         return event != nullptr ? FrameSpan{event->first_frame, event->last_frame}
                                 : unsearched.at(queue.at(position).index);
+    }
+    /// The stop that the event at a place of the queue tells of, with others; nothing: none.
+    std::optional<std::size_t> stopAt(std::size_t position) const {
+        const QueueItem& item = queue.at(position);
+        return item.is_event && item.index < stops.size() ? stops[item.index] : std::nullopt;
     }
     /// The frame to look at.
     FrameIndex frameAt(std::size_t position) const {

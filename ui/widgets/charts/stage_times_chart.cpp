@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "widgets/charts/focus_ring.h"
 #include "widgets/charts/plot_colours.h"
 #include "widgets/empty_state.h"
 #include "widgets/theme_colours.h"
@@ -55,6 +56,7 @@ StageTimesChart::StageTimesChart(QWidget* parent)
     makePlot();
     connectPlot();
     applyColours();
+    new FocusRing(*this);
 }
 
 StageTimesChart::~StageTimesChart() = default;

@@ -16,6 +16,7 @@
 #include <iterator>
 #include <limits>
 
+#include "widgets/charts/focus_ring.h"
 #include "widgets/charts/plot_colours.h"
 #include "widgets/theme_colours.h"
 
@@ -79,6 +80,7 @@ SweepChart::SweepChart(QWidget* parent) : QWidget(parent), plot_(new QCustomPlot
     margins_ = new QCPMarginGroup(plot_);
     plot_->setAntialiasedElements(QCP::aePlottables);
     applyColours();
+    new FocusRing(*this);
 }
 
 void SweepChart::setData(SweepChartData data) {

@@ -4,6 +4,8 @@
 #include <QMainWindow>
 #include <QMenu>
 #include <QVBoxLayout>
+#include <array>
+#include <utility>
 
 #include "canvas/video_view.h"
 #include "rerun/replay.h"
@@ -21,6 +23,10 @@ namespace eyrie::ui {
 
 namespace {
 
+/// What the picture of a preview could be mistaken for: of the others some tell nothing of what is found, or say
+/// themselves what they are about.
+constexpr std::array kTellOfTheRun{DockId::tracks, DockId::events, DockId::inspector,  DockId::card,
+                                   DockId::stages, DockId::stacks, DockId::statistics, DockId::why};
 constexpr double kKeyMargin = 4;  ///< logical px around a box that is meant by the cursor
 
 QColor colourOf(CornerFate fate, const OverlayColours& colours) {
@@ -137,9 +143,9 @@ void Tuning::showPreview() {
 
 void Tuning::markStale(bool stale) {
     const QString mark = tr(" (stored)");
-    for (const DockId id : allDocks()) {
+    for (const DockId id : kTellOfTheRun) {
         QDockWidget* dock = parts_.docks.dock(id);
-        if (dock == nullptr || id == DockId::parameters || id == DockId::runs) continue;
+        if (dock == nullptr) continue;
         QString title = dock->windowTitle();
         if (title.endsWith(mark)) title.chop(mark.size());
         dock->setWindowTitle(stale ? title + mark : title);
