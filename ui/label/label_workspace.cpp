@@ -141,6 +141,7 @@ void LabelWorkspace::wireLabels() {
     connect(labels_, &LabelSession::selectionChanged, this, &LabelWorkspace::selectionChanged);
     whenChanged(around_.session, this,
                 {{SessionChange::picture, [this] { pictureChanged(); }},
+                 {SessionChange::video, [this] { objects_->explainNothing(around_.session.video().has_value()); }},
                  {{SessionChange::current_run, SessionChange::run_started, SessionChange::video},
                   [this] { around_.messages.dismissTopic(kNoRunTopic); }},
                  {SessionChange::frame, [this] {

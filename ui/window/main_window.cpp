@@ -188,11 +188,10 @@ void MainWindow::buildMenus() {
     for (const ActionSection& section : actions_->sections()) {
         if (section.actions.contains(actions_->next_error)) menuBar()->addMenu(labelling_->menu());
         QMenu* menu = menuBar()->addMenu(section.title);
-        menu->addActions(section.actions);
+        actions_->fill(*menu, section);
         if (section.actions.contains(actions_->open_project)) {
             menu->insertMenu(actions_->save_as, files_->recentMenu());
             menu->insertSeparator(actions_->save_as);
-            menu->insertSeparator(actions_->quit);
         }
         if (section.actions.contains(actions_->fit)) {
             menu->addSeparator();

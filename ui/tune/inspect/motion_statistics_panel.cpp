@@ -86,6 +86,7 @@ MotionStatisticsPanel::MotionStatisticsPanel(ProjectSession& session, QWidget* p
     rows->addWidget(speeds_, 1);
     rows->addWidget(life_title_);
     rows->addWidget(lives_, 1);
+    rows->addStretch();  // where no chart is shown the texts stay at the top
     pages_ = new QStackedLayout(this);
     pages_->addWidget(empty_);
     pages_->addWidget(charts);
@@ -149,10 +150,11 @@ void MotionStatisticsPanel::showFrame() {
 
 void MotionStatisticsPanel::showSpeeds() {
     const ViewFrame& frame = session_.viewFrame();
+    speeds_->setData({});
+    speeds_->hide();
     if (wholeRun() ? !counted_ : !frame.result) {
         speed_title_->setText(wholeRun() ? tr("<b>Speed</b>: reading the motion vectors of the run…")
                                          : notProcessedText());
-        speeds_->setData({});
         return;
     }
     std::vector<double> speeds;
@@ -165,26 +167,35 @@ void MotionStatisticsPanel::showSpeeds() {
                 std::hypot(static_cast<double>(vector.velocity.x), static_cast<double>(vector.velocity.y)));
         }
     }
+    if (speeds.empty()) {
+        speed_title_->setText(wholeRun() ? tr("The run has no motion vectors: nothing moved.")
+                                         : tr("Frame %1 has no motion vectors: nothing moves.").arg(frame.index));
+        return;
+    }
     const auto count = static_cast<double>(speeds.size());
-    const QString mean = speeds.empty()
-                             ? QStringLiteral("–")
-                             : speedText(std::accumulate(speeds.begin(), speeds.end(), 0.0) / count, session_.scale());
+    const QString mean = speedText(std::accumulate(speeds.begin(), speeds.end(), 0.0) / count, session_.scale());
     const QString number = QLocale().toString(count, 'f', 0);
     speed_title_->setText(
         wholeRun()
             ? tr("<b>Speed</b> of the %1 motion vectors of all frames, mean %2").arg(number, mean)
             : tr("<b>Speed</b> of the %1 motion vectors of frame %2, mean %3").arg(number).arg(frame.index).arg(mean));
     speeds_->setData(speedHistogramOf(std::move(speeds), session_.scale()));
+    speeds_->show();
 }
 
 void MotionStatisticsPanel::showLives() {
     const auto& result = session_.viewFrame().result;
+    lives_->setData({});
+    lives_->hide();
     if (!counted_ || (!wholeRun() && !result)) {
-        lives_->setData({});
         if (!read_of_) life_title_->clear();
         return;
     }
     const VectorLifetimes lives = wholeRun() ? counted_->lives() : counted_->livesOf(result->motion.motion_vectors);
+    if (lives.vectors == 0) {
+        life_title_->clear();
+        return;
+    }
     life_title_->setText((wholeRun() ? tr("<b>Life</b> of the %1 motion vectors of the run, mean %2 frames; those in a "
                                           "track stay in it for %3 frames")
                                      : tr("<b>Life</b> in the run of the %1 motion vectors of this frame, mean %2 "
@@ -201,6 +212,7 @@ void MotionStatisticsPanel::showLives() {
     histogram.series.push_back({tr("life"), kVectorColour, {lives.life.begin(), lives.life.end()}});
     histogram.series.push_back({tr("in a track"), kTrackColour, {lives.association.begin(), lives.association.end()}});
     lives_->setData(std::move(histogram));
+    lives_->show();
 }
 
 }  // namespace eyrie::ui
