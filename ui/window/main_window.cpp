@@ -330,7 +330,10 @@ void MainWindow::wireInspection() {
 void MainWindow::wireCanvas() {
     connect(canvas_, &VideoView::trackClicked, &session_, &ProjectSession::selectTrack);
     connect(canvas_, &VideoView::cursorMoved, status_, &StatusFields::showCursor);
-    connect(canvas_, &VideoView::transformChanged, status_, [this] { status_->showZoom(canvas_->transform().zoom()); });
+    connect(canvas_, &VideoView::transformChanged, status_, [this] {
+        const ViewTransform& shown = canvas_->transform();
+        status_->showZoom(shown.zoom(), shown.onGround());
+    });
     connect(&overlays_, &OverlaySettings::changed, timeline_, [this] { timeline_->setPalette(overlays_.palette()); });
     timeline_->setPalette(overlays_.palette());
 }

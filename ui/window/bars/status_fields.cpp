@@ -162,8 +162,10 @@ void StatusFields::showCursor(std::optional<QPointF> image_point) {
     cursor_->setText(text);
 }
 
-void StatusFields::showZoom(double zoom) {
-    zoom_->setText(session_.video() ? tr("%1 %").arg(std::lround(zoom * 100)) : QString());
+void StatusFields::showZoom(double zoom, bool ground_held) {
+    QString text = session_.video() ? tr("%1 %").arg(std::lround(zoom * 100)) : QString();
+    if (!text.isEmpty() && ground_held) text += tr("   ground held still");
+    zoom_->setText(text);
 }
 
 void StatusFields::showRun(const RunProgress& progress) {
