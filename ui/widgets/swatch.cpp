@@ -24,8 +24,8 @@ QIcon switchedSwatch(const QColor& colour, int side) {
     painter.setRenderHint(QPainter::Antialiasing);
     const QColor tick = qGray(colour.rgb()) > 110 ? Qt::black : Qt::white;
     painter.setPen(QPen(tick, side / 8.0, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
-    painter.drawPolyline(
-        QPolygonF({{0.28 * side, 0.52 * side}, {0.44 * side, 0.68 * side}, {0.72 * side, 0.34 * side}}));
+    painter.drawPolyline(QPolygonF{QPointF(0.28 * side, 0.52 * side), QPointF(0.44 * side, 0.68 * side),
+                                   QPointF(0.72 * side, 0.34 * side)});
     painter.end();
     icon.addPixmap(ticked, QIcon::Normal, QIcon::On);
     return icon;

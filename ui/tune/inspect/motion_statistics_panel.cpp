@@ -146,15 +146,16 @@ void MotionStatisticsPanel::showFrame() {
     shown_run_ = wholeRun() ? counted_ : nullptr;
     showSpeeds();
     showLives();
+    // Axes without anything between them say nothing.
+    for (HistogramChart* chart : {speeds_, lives_}) chart->setVisible(!chart->data().series.empty());
 }
 
 void MotionStatisticsPanel::showSpeeds() {
     const ViewFrame& frame = session_.viewFrame();
-    speeds_->setData({});
-    speeds_->hide();
     if (wholeRun() ? !counted_ : !frame.result) {
         speed_title_->setText(wholeRun() ? tr("<b>Speed</b>: reading the motion vectors of the run…")
                                          : notProcessedText());
+        speeds_->setData({});
         return;
     }
     std::vector<double> speeds;
@@ -170,6 +171,7 @@ void MotionStatisticsPanel::showSpeeds() {
     if (speeds.empty()) {
         speed_title_->setText(wholeRun() ? tr("The run has no motion vectors: nothing moved.")
                                          : tr("Frame %1 has no motion vectors: nothing moves.").arg(frame.index));
+        speeds_->setData({});
         return;
     }
     const auto count = static_cast<double>(speeds.size());
@@ -180,19 +182,18 @@ void MotionStatisticsPanel::showSpeeds() {
             ? tr("<b>Speed</b> of the %1 motion vectors of all frames, mean %2").arg(number, mean)
             : tr("<b>Speed</b> of the %1 motion vectors of frame %2, mean %3").arg(number).arg(frame.index).arg(mean));
     speeds_->setData(speedHistogramOf(std::move(speeds), session_.scale()));
-    speeds_->show();
 }
 
 void MotionStatisticsPanel::showLives() {
     const auto& result = session_.viewFrame().result;
-    lives_->setData({});
-    lives_->hide();
     if (!counted_ || (!wholeRun() && !result)) {
+        lives_->setData({});
         if (!read_of_) life_title_->clear();
         return;
     }
     const VectorLifetimes lives = wholeRun() ? counted_->lives() : counted_->livesOf(result->motion.motion_vectors);
     if (lives.vectors == 0) {
+        lives_->setData({});
         life_title_->clear();
         return;
     }
@@ -212,7 +213,6 @@ void MotionStatisticsPanel::showLives() {
     histogram.series.push_back({tr("life"), kVectorColour, {lives.life.begin(), lives.life.end()}});
     histogram.series.push_back({tr("in a track"), kTrackColour, {lives.association.begin(), lives.association.end()}});
     lives_->setData(std::move(histogram));
-    lives_->show();
 }
 
 }  // namespace eyrie::ui
