@@ -5,11 +5,8 @@
 namespace eyrie {
 
 FoundMetadata metadataOf(const FrameSource& source, const std::stop_token& stop, const IndexProgress& progress) {
-    FoundMetadata found{nullptr,
-                        "it is not a video file, so it carries no metadata (KLV)",
-                        {},
-                        source.info().parts,
-                        source.info().created_utc_us};
+    FoundMetadata found{
+        nullptr, "only video files carry metadata (KLV)", {}, source.info().parts, source.info().created_utc_us};
     try {
         const std::vector<PictureStamp> pictures = source.pictureStamps();
         if (pictures.empty()) return found;

@@ -142,6 +142,7 @@ void LabelWorkspace::wireLabels() {
     whenChanged(around_.session, this,
                 {{SessionChange::keep_written, [this] { inspector_->keepWritten(); }},
                  {SessionChange::picture, [this] { pictureChanged(); }},
+                 {SessionChange::video, [this] { objects_->explainNothing(around_.session.video().has_value()); }},
                  {{SessionChange::current_run, SessionChange::run_started, SessionChange::video},
                   [this] { around_.messages.dismissTopic(kNoRunTopic); }},
                  {SessionChange::frame, [this] {

@@ -1,5 +1,7 @@
 #include "label/object_pictures.h"
 
+#include <QStackedWidget>
+
 #include "canvas/drawing/image_convert.h"
 #include "label/canvas/label_tool.h"
 #include "label/computing/label_chips.h"
@@ -7,6 +9,7 @@
 #include "label/label_actions.h"
 #include "label/object_colours.h"
 #include "widgets/chip_grid.h"
+#include "widgets/empty_state.h"
 #include "widgets/wiring.h"
 #include "workspace/dock_registry.h"
 
@@ -21,7 +24,14 @@ ObjectPictures::ObjectPictures(const LabelParts& parts, QObject* parent)
     chips_ = new LabelChips(parts_.around.session, parts_.labels, this);
     stacks_ = new LabelStacks(parts_.around.session, parts_.labels, this);
     grid_ = new ChipGrid;
-    parts_.around.docks.add(DockId::object_chips, tr("Over time"), grid_);
+    auto* nothing = new EmptyState;
+    nothing->setTexts(
+        tr("Nothing is selected. The selected object is shown here in frame after frame, so that a box "
+           "that slips off it is noticed."));
+    pages_ = new QStackedWidget;
+    pages_->addWidget(nothing);
+    pages_->addWidget(grid_);
+    parts_.around.docks.add(DockId::object_chips, tr("Over time"), pages_);
     wireChips();
     wireStacks();
     whenChanged(parts_.around.session, this,
@@ -47,6 +57,7 @@ void ObjectPictures::showChips() {
     } else {
         chips_->cancel();
         grid_->setCards({});
+        pages_->setCurrentIndex(0);
     }
 }
 
@@ -70,6 +81,7 @@ void ObjectPictures::takeChips(ObjectId id, const std::vector<LabelChip>& chips)
         cards.push_back(std::move(card));
     }
     grid_->setCards(std::move(cards));
+    pages_->setCurrentWidget(grid_);
     grid_->setMarkedCard(parts_.around.session.currentFrame());
 }
 

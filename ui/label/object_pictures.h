@@ -8,6 +8,8 @@
 #include "label/label_parts.h"
 #include "widgets/delayed_call.h"
 
+class QStackedWidget;
+
 namespace eyrie::ui {
 
 class ChipGrid;
@@ -37,6 +39,7 @@ class ObjectPictures : public QObject {
     LabelParts parts_;
     LabelChips* chips_;
     LabelStacks* stacks_;
+    QStackedWidget* pages_ = nullptr;  ///< why there is nothing, then the grid
     ChipGrid* grid_;
     DelayedCall chips_due_;
     bool chips_looked_at_ = false;

@@ -200,11 +200,10 @@ void MainWindow::buildMenus() {
     for (const ActionSection& section : actions_->sections()) {
         if (section.actions.contains(actions_->next_error)) menuBar()->addMenu(labelling_->menu());
         QMenu* menu = menuBar()->addMenu(section.title);
-        menu->addActions(section.actions);
+        actions_->fill(*menu, section);
         if (section.actions.contains(actions_->open_project)) {
             menu->insertMenu(actions_->save_as, files_->recentMenu());
             menu->insertSeparator(actions_->save_as);
-            menu->insertSeparator(actions_->quit);
         }
         if (section.actions.contains(actions_->fit)) {
             menu->addSeparator();
@@ -343,7 +342,10 @@ void MainWindow::wireInspection() {
 void MainWindow::wireCanvas() {
     connect(canvas_, &VideoView::trackClicked, &session_, &ProjectSession::selectTrack);
     connect(canvas_, &VideoView::cursorMoved, status_, &StatusFields::showCursor);
-    connect(canvas_, &VideoView::transformChanged, status_, [this] { status_->showZoom(canvas_->transform().zoom()); });
+    connect(canvas_, &VideoView::transformChanged, status_, [this] {
+        const ViewTransform& shown = canvas_->transform();
+        status_->showZoom(shown.zoom(), shown.onGround());
+    });
     connect(&overlays_, &OverlaySettings::changed, timeline_, [this] { timeline_->setPalette(overlays_.palette()); });
     timeline_->setPalette(overlays_.palette());
 }

@@ -69,7 +69,8 @@ void WelcomePanel::paintEvent(QPaintEvent*) {
     QPainter painter(this);
     painter.setRenderHint(QPainter::Antialiasing);
     painter.setPen(QPen(palette().color(QPalette::Mid), 2, Qt::DashLine));
-    painter.drawRoundedRect(QRectF(column_->geometry()).adjusted(-12, -12, 12, 12), 10, 10);
+    const QRectF around = QRectF(column_->geometry()).adjusted(-12, -12, 12, 12);
+    painter.drawRoundedRect(around.intersected(QRectF(rect()).adjusted(2, 2, -2, -2)), 10, 10);
 }
 
 void WelcomePanel::setRecent(const QList<RecentProject>& projects) {
@@ -81,6 +82,7 @@ void WelcomePanel::setRecent(const QList<RecentProject>& projects) {
     if (projects.isEmpty()) return;
     auto* heading = new QLabel(tr("Recent projects"), recent_box_);
     heading->setForegroundRole(QPalette::PlaceholderText);
+    heading->setAlignment(Qt::AlignCenter);
     recent_layout_->addWidget(heading);
     for (const RecentProject& project : projects.mid(0, kMostShown)) {
         auto* button = new QToolButton(recent_box_);

@@ -79,7 +79,7 @@ KeySheet::KeySheet(KeyBindings& keys, const QString& first, QWidget* parent) : Q
     layout->addLayout(row);
     layout->addWidget(answer_);
     layout->addWidget(buttons);
-    resize(640, 620);
+    resize(760, 620);  // the longest commands are read whole
 
     fill(first);
     onEdited(this, &KeySheet::filter, search_);

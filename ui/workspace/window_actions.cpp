@@ -2,7 +2,9 @@
 
 #include <QActionGroup>
 #include <QIcon>
+#include <QMenu>
 #include <QWidget>
+#include <utility>
 
 #include "canvas/layers/overlay_table.h"
 #include "widgets/wiring.h"
@@ -31,6 +33,7 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
     save_copy = add(tr("Save a &copy…"), {"document-save", {}, QT_TR_NOOP("Save a copy, and go on working here")});
     restore_state = add(tr("Restore an &earlier state…"),
                         {"document-revert", {}, QT_TR_NOOP("What the project held on earlier days")});
+    group();
     export_tracks = add(tr("E&xport tracks…"),
                         {"document-export",
                          {QKeySequence(tr("Ctrl+Shift+X"))},
@@ -41,9 +44,11 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
     report = add(tr("Evaluation &report…"), {"document-export",
                                              {QKeySequence(tr("Ctrl+Shift+R"))},
                                              QT_TR_NOOP("Write the evaluation as one HTML or PDF file")});
+    group();
     demo = add(tr("Watch the &demo scene"), {"media-playback-start", {QKeySequence(tr("Ctrl+D"))}});
     your_name = add(tr("Your &name…"),
                     {"user-identity", {}, QT_TR_NOOP("The name that is kept with what you judge, check and correct")});
+    group();
     quit = add(tr("&Quit"), {"application-exit", {QKeySequence(tr("Ctrl+Q"))}});
 
     section(tr("Ru&n"));
@@ -61,6 +66,7 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
                        {"go-last", {QKeySequence(tr("Ctrl+L"))}, QT_TR_NOOP("Show each frame as the run finishes it")},
                        false);
 
+    group();
     restore_run =
         add(tr("Bring back the re&moved run"), {"edit-undo", {}, QT_TR_NOOP("Possible until the project is closed")});
     train =
@@ -68,6 +74,7 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
 
     section(tr("&Playback"));
     play = add(tr("&Play"), {"media-playback-start", {QKeySequence(Qt::Key_Space)}});
+    group();
     step_back =
         add(tr("Step back"), {"media-skip-backward", {QKeySequence(Qt::Key_Left), QKeySequence(Qt::Key_Comma)}});
     step_on =
@@ -77,11 +84,13 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
     first = add(tr("First frame"), {"go-first", {QKeySequence(Qt::Key_Home)}});
     last = add(tr("Last frame"), {"go-last", {QKeySequence(Qt::Key_End)}});
     go_to_frame = add(tr("&Go to frame…"), {"go-jump", {QKeySequence(Qt::Key_G)}});
+    group();
     shuttle_back = add(tr("Play backwards, again: faster"), {nullptr, {QKeySequence(Qt::Key_J)}});
     shuttle_stop = add(tr("Pause"), {"media-playback-pause", {QKeySequence(Qt::Key_K)}});
     shuttle_on = add(tr("Play forwards, again: faster"), {nullptr, {QKeySequence(Qt::Key_L)}});
     slower = add(tr("Slower"), {nullptr, {QKeySequence(tr("<"))}});
     faster = add(tr("Faster"), {nullptr, {QKeySequence(tr(">"))}});
+    group();
     loop = addToggle(tr("Play in a loop"), {"media-playlist-repeat", {QKeySequence(tr("Shift+Space"))}}, false);
 
     only_moving =
@@ -110,6 +119,7 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
     one_to_one = add(tr("Actual size (1:1)"), {"zoom-original", {QKeySequence(Qt::Key_0)}});
     zoom_in = add(tr("Zoom in"), {"zoom-in", {QKeySequence(Qt::Key_Plus), QKeySequence(Qt::Key_Equal)}});
     zoom_out = add(tr("Zoom out"), {"zoom-out", {QKeySequence(Qt::Key_Minus)}});
+    group();
     steady = addToggle(tr("&Hold the ground still"),
                        {nullptr,
                         {QKeySequence(tr("Shift+G"))},
@@ -131,6 +141,7 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
                               {QKeySequence(tr("Ctrl+H"))},
                               QT_TR_NOOP("Shows what lies in the dark or in haze; changes no result")},
                              false);
+    group();
     show_mosaic =
         add(tr("M&osaic of the ground"),
             {nullptr,
@@ -142,6 +153,7 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
     snapshot_plain =
         add(tr("Save the &picture alone…"),
             {nullptr, {QKeySequence(tr("Shift+F12"))}, QT_TR_NOOP("The whole frame without overlays, as a PNG file")});
+    group();
     deselect = add(tr("Clear the selection"), {nullptr, {QKeySequence(Qt::Key_Escape)}});
     why = add(tr("&Why?"), {"help-contextual",
                             {QKeySequence(tr("Shift+W"))},
@@ -155,11 +167,13 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
                   {nullptr,
                    {QKeySequence(tr("Ctrl+Shift+B"))},
                    QT_TR_NOOP("Two runs or sets of parameters on the same frames, side by side or with a wipe")});
+    group();
     event_rows =
         addToggle(tr("Rows of event &kinds in the timeline"),
                   {nullptr, {}, QT_TR_NOOP("A thin row of the timeline for each kind of event that occurs")}, true);
     full_screen = addToggle(tr("Full screen"), {"view-fullscreen", {QKeySequence(Qt::Key_F11)}}, false);
 
+    group();
     const QString workspace_names[] = {tr("&Review"), tr("&Label"), tr("&Tune")};
     const char* workspace_tips[] = {QT_TR_NOOP("Review what moved"), QT_TR_NOOP("Draw and check ground truth"),
                                     QT_TR_NOOP("Look into every stage of the chain and set its parameters")};
@@ -182,6 +196,17 @@ void WindowActions::section(const QString& title) {
     sections_.append({title, {}});
 }
 
+void WindowActions::group() {
+    group_begins_ = true;
+}
+
+void WindowActions::fill(QMenu& menu, const ActionSection& section) const {
+    for (QAction* action : section.actions) {
+        if (group_starts_.contains(action)) menu.addSeparator();
+        menu.addAction(action);
+    }
+}
+
 QAction* WindowActions::add(const QString& text, const Look& look) {
     auto* action = new QAction(text, this);
     if (look.icon != nullptr) action->setIcon(QIcon::fromTheme(QString::fromLatin1(look.icon)));
@@ -190,6 +215,7 @@ QAction* WindowActions::add(const QString& text, const Look& look) {
     setKeys(*action, look.keys);
     parent_->addAction(action);
     sections_.back().actions.append(action);
+    if (std::exchange(group_begins_, false)) group_starts_.insert(action);
     return action;
 }
 
@@ -205,6 +231,7 @@ void WindowActions::addEvents() {
     next_event = add(tr("&Next event"), {"go-next", {QKeySequence(tr("Ctrl+Down"))}});
     previous_event = add(tr("&Previous event"), {"go-previous", {QKeySequence(tr("Ctrl+Up"))}});
     next_open_event = add(tr("Next event to &judge"), {nullptr, {QKeySequence(tr("Ctrl+J"))}});
+    group();
     relevant = add(
         tr("&Relevant"),
         {nullptr, {QKeySequence(Qt::Key_Y)}, QT_TR_NOOP("Judge the selected events relevant, and go on to the next")});
@@ -217,6 +244,7 @@ void WindowActions::addEvents() {
     take_back = add(tr("&Take the verdict back"), {nullptr, {QKeySequence(tr("Shift+Backspace"))}});
     star = add(tr("&Star or unstar"), {nullptr, {QKeySequence(tr("*"))}, QT_TR_NOOP("Star the selected events")});
     note = add(tr("&Write a note"), {nullptr, {QKeySequence(tr("Ctrl+E"))}});
+    group();
     like_track = add(tr("Trac&ks like this one"),
                      {"edit-find",
                       {QKeySequence(tr("Ctrl+Shift+T"))},
@@ -249,12 +277,14 @@ void WindowActions::addEvents() {
              {QKeySequence(tr("Shift+Insert"))},
              QT_TR_NOOP("Take back the last correction of each selected track: that it was added, joined, split or "
                         "rejected")});
+    group();
     undo_verdict =
         add(tr("U&ndo"),
             {"edit-undo",
              {QKeySequence(Qt::Key_Z), QKeySequence(tr("Ctrl+Z"))},
              QT_TR_NOOP("Undo the last verdict, star, note, bookmark, correction of a track or change of a zone")});
     redo_verdict = add(tr("Re&do"), {"edit-redo", {QKeySequence(tr("Ctrl+Shift+Z")), QKeySequence(tr("Ctrl+Y"))}});
+    group();
     clip_event = add(tr("&Clip of the event…"),
                      {"document-export",
                       {QKeySequence(tr("Ctrl+Shift+C"))},
@@ -267,6 +297,7 @@ void WindowActions::addEvents() {
     next_bookmark = add(tr("Ne&xt bookmark"), {nullptr, {QKeySequence(Qt::Key_F9)}});
     previous_bookmark = add(tr("Previous boo&kmark"), {nullptr, {QKeySequence(tr("Shift+F9"))}});
     remove_bookmark = add(tr("Re&move the bookmark"), {nullptr, {QKeySequence(tr("Ctrl+Shift+F9"))}});
+    group();
     draw_zone =
         addToggle(tr("Draw a &zone"),
                   {nullptr,
@@ -301,12 +332,15 @@ void WindowActions::addOverlays(OverlaySettings& overlays) {
         bindSwitches(this, {{action, [&overlays, kind = row.kind](bool on) { overlays.setVisible(kind, on); }}});
     }
     const OverlayDetail& detail = overlays.style().detail;
+    group();
     labels = addToggle(tr("Track la&bels"), {nullptr, {onOverlay(Qt::Key_B)}}, detail.labels);
     trails = addToggle(tr("Tr&ails"), {nullptr, {onOverlay(Qt::Key_A)}}, detail.trails);
     rejected = addToggle(tr("Re&jected detections"), {nullptr, {onOverlay(Qt::Key_X)}}, detail.rejected_detections);
     tentative = addToggle(tr("T&entative tracks"), {nullptr, {onOverlay(Qt::Key_Y)}}, detail.tentative_tracks);
+    group();
     longer_vectors = add(tr("Longer vectors"), {nullptr, {onOverlay(Qt::Key_PageUp)}});
     shorter_vectors = add(tr("Shorter vectors"), {nullptr, {onOverlay(Qt::Key_PageDown)}});
+    group();
     colour_blind =
         addToggle(tr("Colour-blind safe colours"), {nullptr, {}}, overlays.palette() == PaletteKind::colour_blind);
     hide_overlays =

@@ -3,12 +3,15 @@
 #include <QAction>
 #include <QList>
 #include <QObject>
+#include <QSet>
 #include <array>
 #include <map>
 
 #include "canvas/overlay_settings.h"
 #include "workspace/key_bindings.h"
 #include "workspace/workspace_kind.h"
+
+class QMenu;
 
 namespace eyrie::ui {
 
@@ -24,6 +27,8 @@ class WindowActions : public QObject {
     QAction* workspaceAction(WorkspaceKind kind) const { return workspace[static_cast<std::size_t>(kind)]; }
     /// In the order of the menus.
     const QList<ActionSection>& sections() const { return sections_; }
+    /// Adds the actions of a section, with a line between groups of them.
+    void fill(QMenu& menu, const ActionSection& section) const;
 
     QAction *open_video, *open_folder, *watch_live, *open_project, *save_as, *save_copy, *restore_state, *start_time,
         *export_tracks, *demo, *your_name, *quit;
@@ -50,6 +55,8 @@ class WindowActions : public QObject {
         const char* tip = nullptr;
     };
     void section(const QString& title);
+    /// The next action begins a group of its section.
+    void group();
     QAction* add(const QString& text, const Look& look);
     QAction* addToggle(const QString& text, const Look& look, bool checked);
     void addEvents();
@@ -58,6 +65,8 @@ class WindowActions : public QObject {
 
     QWidget* parent_;
     QList<ActionSection> sections_;
+    QSet<const QAction*> group_starts_;
+    bool group_begins_ = false;
 };
 
 }  // namespace eyrie::ui

@@ -1,5 +1,6 @@
 #include "window/docks/tuning.h"
 
+#include <QCheckBox>
 #include <QDockWidget>
 #include <QSignalSpy>
 #include <QSlider>
@@ -7,6 +8,8 @@
 #include <QTest>
 #include <fstream>
 
+#include "canvas/layers/stages/detection_layer.h"
+#include "canvas/layers/track_layer.h"
 #include "canvas/video_view.h"
 #include "canvas/wipe_split.h"
 #include "store/labels/annotation_store.h"
@@ -183,6 +186,14 @@ class TuningTest : public QObject {
         QVERIFY(showRun());
         ComparisonWindow& alone = tuning().compareRuns();
         QCOMPARE(alone.differences().rowCount(), 0);
+        // What is compared is drawn, although the window beside it shows something else.
+        window_->overlays().setProfile({});
+        QVERIFY(alone.drawn().isDrawn(TrackLayer::kKind) && !alone.drawn().isDrawn(DetectionLayer::kKind));
+        alone.detections().setChecked(true);
+        QVERIFY(alone.drawn().isDrawn(DetectionLayer::kKind));
+        window_->overlays().setHidden(true);
+        QVERIFY(!alone.drawn().isDrawn(DetectionLayer::kKind));
+        window_->overlays().setHidden(false);
         alone.close();
         session().settings().options.clustering.min_members = 200;  // finds nothing
         QSignalSpy finished(&session(), &ProjectSession::runFinished);

@@ -364,6 +364,24 @@ class TablesTest : public QObject {
         QToolTip::hideText();
     }
 
+    void aColumnOfShortNumbersGrowsToo() {
+        // Headers allow no column as narrow as a short number; that is nobody's choice of a width.
+        QStandardItemModel model(0, 2);
+        model.setHorizontalHeaderLabels({QStringLiteral("#"), QStringLiteral("Kind")});
+        TablePanel panel(&model, QStringLiteral("short_numbers"));
+        QTableView& table = *panel.table();
+        table.horizontalHeader()->setMinimumSectionSize(60);
+        panel.resize(400, 240);
+        panel.show();
+        const auto add = [&](const QString& number) {
+            model.appendRow({new QStandardItem(number), new QStandardItem(QStringLiteral("lost"))});
+        };
+        add(QStringLiteral("1"));
+        QCOMPARE(table.columnWidth(0), 60);
+        add(QStringLiteral("123456789012345"));
+        QTRY_VERIFY(table.columnWidth(0) > 60);
+    }
+
     void titlesExplainTheirColumns() {
         TracksModel model;
         model.setTracks({}, {0.25, 25, true});

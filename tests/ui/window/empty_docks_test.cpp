@@ -1,6 +1,7 @@
 #include <QApplication>
 #include <QDockWidget>
 #include <QLabel>
+#include <QSignalSpy>
 #include <QTest>
 #include <algorithm>
 
@@ -43,7 +44,14 @@ class EmptyDocksTest : public QObject {
         for (const DockId id : kDocks)
             QVERIFY2(says(window, id, QStringLiteral("Run the video first, or choose a run.")),
                      qPrintable(window.docks().dock(id)->windowTitle()));
-        QVERIFY(test::runAndWait(window.session()));
+        // Without a scale it takes some seconds before there is a run.
+        window.session().settings().options.view.oblique = false;
+        QSignalSpy finished(&window.session(), &ProjectSession::runFinished);
+        window.session().startRun();
+        for (const DockId id : kDocks)
+            QVERIFY2(says(window, id, QStringLiteral("Wait for the first frames of the run.")),
+                     qPrintable(window.docks().dock(id)->windowTitle()));
+        QVERIFY(finished.wait(test::kPatience_ms));
         const EmptyState* tracks = window.review().tracks().emptyState();
         QTRY_VERIFY(!tracks->explanation().startsWith(QStringLiteral("Run the video first")));
         for (const DockId id : {DockId::card, DockId::mosaic})

@@ -281,6 +281,9 @@ class MainWindowTest : public QObject {
         for (const double count : statistics.lives().data().series.front().counts) living += count;
         QCOMPARE(living, shown);
         QVERIFY(statistics.speedTitle().contains(QStringLiteral("of frame 25")));
+        window->session().goToFrame(0);  // no corner is old enough to move yet, and axes alone say nothing
+        QVERIFY(showsFrame(*window, 0));
+        QVERIFY(waitFor([&] { return statistics.speeds().isHidden() && statistics.lives().isHidden(); }));
         statistics.showWholeRun(true);
         QVERIFY(statistics.speedTitle().contains(QStringLiteral("of all frames")));
         QVERIFY(statistics.lifeTitle().contains(QStringLiteral("of the run")));

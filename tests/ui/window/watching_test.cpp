@@ -104,6 +104,7 @@ class WatchingTest : public QObject {
         QVERIFY(actions().steady->isChecked());
         QTRY_VERIFY_WITH_TIMEOUT(window().watching().ground().sheets() != nullptr, kPatience_ms);
         QVERIFY(canvas().transform().onGround());
+        QVERIFY(test::says(window(), QStringLiteral("ground held still")));
         QCOMPARE(window().watching().ground().sheets()->anchor(), kAnchor);
         const QPointF before = inView(standing(kAnchor));
         const double px = canvas().transform().scale();

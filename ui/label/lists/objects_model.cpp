@@ -47,6 +47,10 @@ double ObjectsModel::secondsOf(const ObjectRow& row) const {
     return scale_.frame_rate_hz > 0 ? (row.last_frame - row.first_frame + 1) / scale_.frame_rate_hz : 0;
 }
 
+double ObjectsModel::shownSpeedOf(const ObjectRow& row) const {
+    return shownSpeed(row.speed_px, scale_.at(row.place));
+}
+
 QVariant ObjectsModel::data(const QModelIndex& index, int role) const {
     const ObjectRow* row = recordAt(index.row());
     if (row == nullptr || !index.isValid()) return {};
@@ -92,7 +96,7 @@ QString ObjectsModel::textOf(const ObjectRow& row, int column) const {
         case life_column:
             return numberText(secondsOf(row), 1);
         case speed_column:
-            return numberText(shownSpeed(row.speed_px, scale_.at(row.place)), scale_.gsd_known ? 1 : 2);
+            return numberText(shownSpeedOf(row), scale_.gsd_known ? 1 : 2);
         case state_column:
             return reviewText(row);
         case origin_column:
@@ -117,7 +121,7 @@ QVariant ObjectsModel::sortValueOf(const ObjectRow& row, int column) const {
         case life_column:
             return row.last_frame - row.first_frame;
         case speed_column:
-            return shownSpeed(row.speed_px, scale_.at(row.place));
+            return shownSpeedOf(row);
         case state_column:
             return row.state == ReviewState::questionable ? -1.0
                    : row.state == ReviewState::checked    ? 2.0

@@ -60,6 +60,9 @@ class ObjectsModel : public RecordModel<ObjectRow> {
     QVariant data(const QModelIndex& index, int role) const override;
     QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
     double secondsOf(const ObjectRow& row) const;
+    /// As the column shows it.
+    double shownSpeedOf(const ObjectRow& row) const;
+    const SceneScale& scale() const { return scale_; }
 
  private:
     QString textOf(const ObjectRow& row, int column) const;

@@ -9,6 +9,7 @@
 #include <QTableView>
 #include <QToolButton>
 
+#include "widgets/display_text.h"
 #include "widgets/empty_state.h"
 #include "widgets/wiring.h"
 
@@ -28,10 +29,7 @@ ObjectsPanel::ObjectsPanel(ObjectsModel* model, QWidget* parent)
       slowest_(new QDoubleSpinBox(this)),
       coverage_(new QProgressBar(this)) {
     table()->setAccessibleName(tr("Objects"));
-    emptyState()->setTexts(
-        tr("Nothing is labelled yet. Press B and click the rear and the front of a vehicle, take over the tracks of a "
-           "run as proposals (P), or import labels from a file."),
-        tr("Draw an object (B)"));
+    explainNothing(false);
     this_frame_->setText(tr("This frame"));
     this_frame_->setCheckable(true);
     this_frame_->setToolTip(tr("List only objects in the frame shown"));
@@ -47,7 +45,6 @@ ObjectsPanel::ObjectsPanel(ObjectsModel* model, QWidget* parent)
     shortest_->setSuffix(tr(" s"));
     shortest_->setToolTip(tr("List only objects with at least this life, in seconds"));
     slowest_->setPrefix(tr("v ≥ "));
-    slowest_->setToolTip(tr("List only objects at least this fast, in px/frame over the ground"));
     coverage_->setRange(0, 1000);
     coverage_->setTextVisible(true);
     coverage_->setMaximumHeight(16);
@@ -60,6 +57,7 @@ ObjectsPanel::ObjectsPanel(ObjectsModel* model, QWidget* parent)
         box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
         box->setMinimumContentsLength(6);
     }
+    for (const int column : {0, 1}) filters->setColumnStretch(column, 1);
     filters->addWidget(class_, 0, 0);
     filters->addWidget(state_, 0, 1);
     filters->addWidget(shortest_, 1, 0);
@@ -69,7 +67,25 @@ ObjectsPanel::ObjectsPanel(ObjectsModel* model, QWidget* parent)
         rows->addWidget(coverage_);
     }
     setCheckedShare(0, 0);
+    showSpeedUnit();
+    whenAny(model, this, &ObjectsPanel::showSpeedUnit, &QAbstractItemModel::headerDataChanged);
     onEdited(this, &ObjectsPanel::refilter, class_, state_, shortest_, slowest_, this_frame_);
+}
+
+void ObjectsPanel::explainNothing(bool with_video) {
+    if (with_video)
+        emptyState()->setTexts(
+            tr("Nothing is labelled yet. Press B and click the rear and the front of a vehicle, take over the tracks "
+               "of a run as proposals (P), or import labels from a file."),
+            tr("Draw an object (B)"));
+    else
+        emptyState()->setTexts(tr("Open a video first. The objects that are labelled in it are listed here."));
+}
+
+void ObjectsPanel::showSpeedUnit() {
+    const QString unit = speedUnit(objects_->scale());
+    slowest_->setSuffix(QLatin1Char(' ') + unit);
+    slowest_->setToolTip(tr("List only objects at least this fast, in %1 over the ground").arg(unit));
 }
 
 void ObjectsPanel::setClasses(const QStringList& classes) {
@@ -94,13 +110,14 @@ void ObjectsPanel::setThisFrameOnly(bool only) {
 
 void ObjectsPanel::setCheckedShare(double share, int objects) {
     coverage_->setValue(qRound(1000 * share));
-    coverage_->setFormat(objects == 0 ? tr("nothing to check") : tr("%1 % checked").arg(100 * share, 0, 'f', 1));
+    coverage_->setFormat(tr("%1 % checked").arg(100 * share, 0, 'f', 1));
+    coverage_->setVisible(objects > 0);
 }
 
 bool ObjectsPanel::passes(const ObjectRow& row) const {
     if (class_->currentIndex() > 0 && row.object_class != class_->currentText()) return false;
     if (this_frame_->isChecked() && (frame_ < row.first_frame || frame_ > row.last_frame)) return false;
-    if (objects_->secondsOf(row) < shortest_->value() || row.speed_px < slowest_->value()) return false;
+    if (objects_->secondsOf(row) < shortest_->value() || objects_->shownSpeedOf(row) < slowest_->value()) return false;
     switch (state_->currentIndex()) {
         case new_state:
             return row.state != ReviewState::checked;

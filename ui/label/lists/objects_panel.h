@@ -29,6 +29,8 @@ class ObjectsPanel : public TablePanel {
     explicit ObjectsPanel(ObjectsModel* model, QWidget* parent = nullptr);
     void setCommands(ObjectListCommands commands) { commands_ = std::move(commands); }
 
+    /// Says why the list is empty, and what to do.
+    void explainNothing(bool with_video);
     /// Classes to filter by.
     void setClasses(const QStringList& classes);
     void setFrame(FrameIndex frame);
@@ -43,6 +45,7 @@ class ObjectsPanel : public TablePanel {
     void fillMenu(QMenu& menu, int object) override;
 
  private:
+    void showSpeedUnit();
     void refilter();
     bool passes(const ObjectRow& row) const;
     void activate(int object, int column);

@@ -35,14 +35,14 @@ CardDock::CardDock(const CardParts& parts)
     parts_.events.setEventShown([this](int id) { showEvent(id); });
     whenAny(&parts_.events.model(), this, &CardDock::refreshEvent, &EventsModel::dataChanged, &EventsModel::modelReset);
     whenAny(&parts_.ground, this, &CardDock::askForStory, &WatchedGround::changed);
-    followSession(
-        parts_.session, this,
-        {{SessionChange::keep_written, [this] { card_->keepWritten(); }},
-         {SessionChange::selection, [this] { showSelection(); }},
-         {SessionChange::run_data, [this] { refreshTrack(); }},
-         {{SessionChange::video, SessionChange::current_run, SessionChange::run_started, SessionChange::run_ended},
-          [this] { explainNothing(); }},
-         {SessionChange::picture, [this] { card_->setFrame(parts_.session.shownFrame()); }}});
+    followSession(parts_.session, this,
+                  {{SessionChange::keep_written, [this] { card_->keepWritten(); }},
+                   {SessionChange::selection, [this] { showSelection(); }},
+                   {SessionChange::run_data, [this] { refreshTrack(); }},
+                   {{SessionChange::video, SessionChange::current_run, SessionChange::run_preparing,
+                     SessionChange::run_started, SessionChange::run_ended},
+                    [this] { explainNothing(); }},
+                   {SessionChange::picture, [this] { card_->setFrame(parts_.session.shownFrame()); }}});
     explainNothing();
 }
 

@@ -41,7 +41,7 @@ EventCard::EventCard(QWidget* parent) : QWidget(parent), loop_(kChipPeriod_ms, [
     note_->setAccessibleName(tr("Note"));
     tags_ = new QLineEdit;
     tags_->setMaxLength(kLongestNote);
-    tags_->setPlaceholderText(tr("Tags: gate 3, lorry"));
+    tags_->setPlaceholderText(tr("Tags, with commas between them"));
     tags_->setAccessibleName(tr("Tags"));
     judged_ = new QLabel;
     judged_->setWordWrap(true);

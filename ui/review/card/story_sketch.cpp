@@ -51,14 +51,17 @@ QString StorySketch::figureText() const {
                              shortSpeedText(scale_.pxPerFrame(most->speed), scale_));
 }
 
+double StorySketch::figureHeight() const {
+    const double figure = fontMetrics().lineSpacing();
+    return height() - 2 * kSketchMargin > 2 * figure ? figure : 0;
+}
+
 QPolygonF StorySketch::line() const {
     QPolygonF line;
     if (points_.empty()) return line;
     QRectF room = QRectF(rect()).adjusted(kSketchMargin, kSketchMargin, -kSketchMargin, -kSketchMargin);
     if (kind_ == Kind::speed) {
-        // Below the figure, where there is room for both.
-        if (const double figure = fontMetrics().lineSpacing(); room.height() > 2 * figure)
-            room.setTop(room.top() + figure);
+        room.setTop(room.top() + figureHeight());
         double most = 0;
         for (const StoryPoint& point : points_) most = std::max(most, point.speed);
         const double begin = points_.front().seconds;
@@ -123,7 +126,8 @@ void StorySketch::paintEvent(QPaintEvent*) {
     if (mark_ >= points_.front().frame && mark_ <= points_.back().frame) {
         const QPointF mark = shown[static_cast<int>(at - points_.begin())];
         painter.setPen(QPen(kSketchMark, 1.4));
-        if (kind_ == Kind::speed) painter.drawLine(QPointF(mark.x(), 2), QPointF(mark.x(), height() - 2));
+        if (kind_ == Kind::speed)
+            painter.drawLine(QPointF(mark.x(), 2 + figureHeight()), QPointF(mark.x(), height() - 2));
         painter.setBrush(kSketchMark);
         painter.drawEllipse(mark, 3, 3);
     }

@@ -36,6 +36,8 @@ class StorySketch : public QWidget {
     void mousePressEvent(QMouseEvent* event) override;
 
  private:
+    /// What the figure takes at the top, px; 0 where there is too little room for both.
+    double figureHeight() const;
     /// Where the points lie in the widget.
     QPolygonF line() const;
     int nearest(QPointF place) const;

@@ -115,7 +115,7 @@ void MetadataPanel::showSummary() {
 void MetadataPanel::explainNothing() {
     const auto& found = earth_.metadata();
     const QString by_hand =
-        QLatin1String("\n\n") + tr("You can set where it was taken by hand, with control points: see below.");
+        QLatin1String("\n\n") + tr("You can say by hand where it was taken, with the control points below.");
     if (!session_.media())
         emptyState()->setTexts(
             tr("Open a video first. What it says about its camera is listed here: time, place, angles and scale at the "

@@ -68,10 +68,10 @@ EventsDock::EventsDock(const EventsParts& parts)
         panel_->showZones(true);
     });
     parts_.docks.add(DockId::events, tr("Events"), panel_);
-    followSession(
-        parts_.session, this,
-        {{{SessionChange::video, SessionChange::current_run, SessionChange::run_started, SessionChange::run_ended},
-          [this] { explainNothing(); }}});
+    followSession(parts_.session, this,
+                  {{{SessionChange::video, SessionChange::current_run, SessionChange::run_preparing,
+                     SessionChange::run_started, SessionChange::run_ended},
+                    [this] { explainNothing(); }}});
     explainNothing();
     parts_.docks.watch(DockId::events, panel_, [this](bool visible) {
         if (visible) review_->setWanted();

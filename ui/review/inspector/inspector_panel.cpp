@@ -34,7 +34,7 @@ QString registrationText(const Registration& registration) {
     }
     return QObject::tr("rms %1 px, %2 corners agree")
         .arg(numberText(registration.current_from_previous.rms_px, 3))
-        .arg(registration.current_from_previous.inliers);
+        .arg(QLocale().toString(registration.current_from_previous.inliers));
 }
 
 TrackClass classOfTrack(const ProjectSession& session, TrackId track) {
@@ -130,7 +130,8 @@ InspectorPanel::InspectorPanel(ProjectSession& session, QWidget* parent) : QWidg
     whenChanged(session_, this,
                 {{SessionChange::picture, [this] { showFrame(session_.viewFrame()); }},
                  {SessionChange::video, [this] { showFrame({}); }},
-                 {{SessionChange::current_run, SessionChange::run_started, SessionChange::run_ended},
+                 {{SessionChange::current_run, SessionChange::run_preparing, SessionChange::run_started,
+                   SessionChange::run_ended},
                   [this] { showFrame(session_.viewFrame()); }},
                  {SessionChange::selection, [this] { showSelection(); }}});
     connect(&session_, &ProjectSession::trackStatesRead, this,

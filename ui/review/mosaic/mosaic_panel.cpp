@@ -77,7 +77,7 @@ MosaicPanel::MosaicPanel(const MosaicParts& parts, QWidget* parent)
                   {{SessionChange::picture, [this] { showFrame(); }},
                    {SessionChange::selection, [this] { view_->setSelectedTrack(parts_.session.selectedTrack()); }},
                    {{SessionChange::video, SessionChange::current_run, SessionChange::run_data,
-                     SessionChange::run_started, SessionChange::run_ended},
+                     SessionChange::run_preparing, SessionChange::run_started, SessionChange::run_ended},
                     [this] { explainNothing(); }}});
     view_->setColours(parts_.overlays.style().colours);
     explainNothing();
@@ -160,7 +160,7 @@ void MosaicPanel::showFrame() {
     if (!failure_.isEmpty())
         texts << failure_;
     else if (mosaic->share < 1)
-        texts << tr("laid out: %1 %").arg(static_cast<int>(100 * mosaic->share));
+        texts << tr("%1 % laid out").arg(static_cast<int>(100 * mosaic->share));
     header_->setText(texts.join(QStringLiteral(" · ")));
     header_->setVisible(!texts.isEmpty());
     header_->setToolTip(count > 1

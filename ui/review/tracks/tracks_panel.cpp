@@ -3,6 +3,7 @@
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
+#include <QLocale>
 #include <QMenu>
 #include <QSlider>
 #include <QTableView>
@@ -154,7 +155,8 @@ QString TracksPanel::countText() const {
         const TrackSummary* track = tracks_->recordAt(shown.mapToSource(shown.index(row, 0)).row());
         listed -= track != nullptr && isRejected(*track) ? 1 : 0;
     }
-    const QString counted = all == 1 ? tr("%1 of 1 track").arg(listed) : tr("%1 of %2 tracks").arg(listed).arg(all);
+    const QString counted = all == 1 ? tr("%1 of 1 track").arg(listed)
+                                     : tr("%1 of %2 tracks").arg(QLocale().toString(listed), QLocale().toString(all));
     return rejected == 0 ? counted : tr("%1, %2 rejected").arg(counted).arg(rejected);
 }
 

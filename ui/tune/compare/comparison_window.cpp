@@ -13,6 +13,9 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "canvas/layers/stages/detection_layer.h"
+#include "canvas/layers/track_layer.h"
+#include "canvas/overlay_settings.h"
 #include "canvas/wipe_split.h"
 #include "tune/compare/comparison_header.h"
 #include "widgets/wiring.h"
@@ -66,12 +69,14 @@ ComparisonWindow::ComparisonWindow(ProjectSession& session, PresetLibrary& prese
                                    QWidget* parent)
     : QWidget(parent, Qt::Window),
       session_(session),
+      overlays_(overlays),
+      drawn_(new OverlaySettings(this)),
       loader_(answers()),
       edited_(kEditsSettle_ms, [this] { parametersEdited(); }) {
     setWindowTitle(tr("A and B – Eyrie"));
     setObjectName(QStringLiteral("comparison"));
     resize(1500, 820);
-    views_ = new WipeSplit(overlays);
+    views_ = new WipeSplit(*drawn_);
     auto* left = new QWidget;
     auto* column = new QVBoxLayout(left);
     column->setContentsMargins(0, 0, 0, 0);
@@ -89,8 +94,11 @@ ComparisonWindow::ComparisonWindow(ProjectSession& session, PresetLibrary& prese
     layout->addWidget(splitter, 1);
 
     connect(header_, &ComparisonHeader::pairChosen, this, &ComparisonWindow::usePair);
-    bindSwitches(this, {{&header_->wipe(), [this](bool on) { views_->setWipe(on); }},
-                        {detections_, [this] { showComparison(); }}});
+    bindSwitches(this, {{&header_->wipe(), [this](bool on) { views_->setWipe(on); }}, {detections_, [this] {
+                                                                                           followOverlays();
+                                                                                           showComparison();
+                                                                                       }}});
+    whenAny(&overlays_, this, &ComparisonWindow::followOverlays, &OverlaySettings::changed);
     connect(&playback_, &Playback::frameDue, this, &ComparisonWindow::playOn);
     connect(&playback_, &Playback::playingChanged, this, [this](bool playing) {
         play_->setIcon(QIcon::fromTheme(playing ? QStringLiteral("media-playback-pause")
@@ -99,6 +107,7 @@ ComparisonWindow::ComparisonWindow(ProjectSession& session, PresetLibrary& prese
         since_.restart();
     });
     whenChanged(session_, this, {{SessionChange::video, [this] { close(); }}});
+    followOverlays();
     frame_ = session_.currentFrame();
     usePair();
 }
@@ -214,6 +223,15 @@ bool ComparisonWindow::event(QEvent* event) {
     return QWidget::event(event);
 }
 
+void ComparisonWindow::followOverlays() {
+    OverlayProfile profile = overlays_.profile();
+    profile.set(detections_->isChecked() ? DetectionLayer::kKind : TrackLayer::kKind, true);
+    drawn_->setProfile(profile);
+    drawn_->setPalette(overlays_.palette());
+    drawn_->setMinScore(overlays_.style().min_score);
+    drawn_->setHidden(overlays_.hidden());
+}
+
 void ComparisonWindow::playOn(FrameIndex frame) {
     const bool at_end = frame > slider_->maximum() || frame < slider_->minimum();
     if (at_end && playback_.playing()) {  // only computed frames are played, again and again
@@ -281,6 +299,7 @@ void ComparisonWindow::showComparison() {
             i, 1,
             words(d.first_frame == d.last_frame ? QString::number(d.first_frame)
                                                 : QStringLiteral("%1–%2").arg(d.first_frame).arg(d.last_frame)));
+        differences_->item(i, 1)->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
         differences_->setItem(i, 2, words(what));
         differences_->setItem(i, 3, words(idText(d.first_id)));
         differences_->setItem(i, 4, words(idText(d.second_id)));

@@ -41,6 +41,9 @@ class ComparisonWindow : public QWidget {
     void goToFrame(FrameIndex frame);
     FrameIndex frame() const { return frame_; }
     WipeSplit& views() { return *views_; }
+    /// What the two views draw.
+    const OverlaySettings& drawn() const { return *drawn_; }
+    QCheckBox& detections() { return *detections_; }
     QTableWidget& differences() { return *differences_; }
     QTableWidget& parameters() { return *parameters_; }
     Playback& playback() { return playback_; }
@@ -58,6 +61,8 @@ class ComparisonWindow : public QWidget {
     QWidget* buildTransport();
     QWidget* buildLists();
     ComparisonAnswers answers();
+    /// Draws what the window does, and always what is compared: tracks or detections.
+    void followOverlays();
     void playOn(FrameIndex frame);
     void usePair();
     void showPair(const ViewFrame& first, const ViewFrame& second);
@@ -65,6 +70,8 @@ class ComparisonWindow : public QWidget {
     void goToDifference(int row);
 
     ProjectSession& session_;
+    const OverlaySettings& overlays_;  ///< of the window
+    OverlaySettings* drawn_;           ///< of the two views
     ComparisonLoader loader_;
     Playback playback_;
     FrameIndex frame_ = 0;

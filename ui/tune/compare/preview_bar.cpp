@@ -60,8 +60,7 @@ void PreviewBar::refresh() {
         if (listed.size() < kMostInTip) listed << change;
         if (differences.size() <= kMostNamed) named << change;
     }
-    if (named.isEmpty())
-        named << tr("%n parameters differ from the run", nullptr, static_cast<int>(differences.size()));
+    if (named.isEmpty()) named << tr("%1 parameters differ from the run").arg(differences.size());
     QString text = named.join(QStringLiteral(", "));
     const auto view = preview_.view();
     if (!preview_.problem().isEmpty()) {

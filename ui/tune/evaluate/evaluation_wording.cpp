@@ -12,14 +12,14 @@ namespace eyrie::ui {
 namespace {
 
 QString spanText(const BootstrapInterval& interval) {
-    return QStringLiteral("%1 (%2 – %3)")
+    return QObject::tr("%1 (%2 to %3)")
         .arg(numberText(interval.value, 3), numberText(interval.low, 3), numberText(interval.high, 3));
 }
 
 QString differenceLine(const QString& measure, const BootstrapInterval& difference, const RunRecord& other) {
     const QString sign = difference.value >= 0 ? QStringLiteral("+") : QString();
     const QString numbers =
-        QStringLiteral("%1%2 (%3 – %4)")
+        QObject::tr("%1%2 (%3 to %4)")
             .arg(sign, numberText(difference.value, 3), numberText(difference.low, 3), numberText(difference.high, 3));
     const bool real = difference.low > 0 || difference.high < 0;
     if (!real)
@@ -59,7 +59,7 @@ WindowedRatios windowedRatios(const std::vector<FrameCounts>& frames, int window
 
 QString certaintyText(const RunEvaluation& evaluation) {
     QStringList lines;
-    lines << QObject::tr("f-score <b>%1</b>, 95 % interval %2 – %3")
+    lines << QObject::tr("f-score <b>%1</b>, 95 % interval %2 to %3")
                  .arg(numberText(evaluation.f_score.value, 3), numberText(evaluation.f_score.low, 3),
                       numberText(evaluation.f_score.high, 3));
     if (evaluation.mota) lines.back() += QObject::tr(" · MOTA %1").arg(spanText(*evaluation.mota));

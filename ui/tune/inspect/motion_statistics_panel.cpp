@@ -86,6 +86,7 @@ MotionStatisticsPanel::MotionStatisticsPanel(ProjectSession& session, QWidget* p
     rows->addWidget(speeds_, 1);
     rows->addWidget(life_title_);
     rows->addWidget(lives_, 1);
+    rows->addStretch();  // where no chart is shown the texts stay at the top
     pages_ = new QStackedLayout(this);
     pages_->addWidget(empty_);
     pages_->addWidget(charts);
@@ -145,6 +146,8 @@ void MotionStatisticsPanel::showFrame() {
     shown_run_ = wholeRun() ? counted_ : nullptr;
     showSpeeds();
     showLives();
+    // Axes without anything between them say nothing.
+    for (HistogramChart* chart : {speeds_, lives_}) chart->setVisible(!chart->data().series.empty());
 }
 
 void MotionStatisticsPanel::showSpeeds() {
@@ -165,10 +168,14 @@ void MotionStatisticsPanel::showSpeeds() {
                 std::hypot(static_cast<double>(vector.velocity.x), static_cast<double>(vector.velocity.y)));
         }
     }
+    if (speeds.empty()) {
+        speed_title_->setText(wholeRun() ? tr("The run has no motion vectors: nothing moved.")
+                                         : tr("Frame %1 has no motion vectors: nothing moves.").arg(frame.index));
+        speeds_->setData({});
+        return;
+    }
     const auto count = static_cast<double>(speeds.size());
-    const QString mean = speeds.empty()
-                             ? QStringLiteral("–")
-                             : speedText(std::accumulate(speeds.begin(), speeds.end(), 0.0) / count, session_.scale());
+    const QString mean = speedText(std::accumulate(speeds.begin(), speeds.end(), 0.0) / count, session_.scale());
     const QString number = QLocale().toString(count, 'f', 0);
     speed_title_->setText(
         wholeRun()
@@ -185,6 +192,11 @@ void MotionStatisticsPanel::showLives() {
         return;
     }
     const VectorLifetimes lives = wholeRun() ? counted_->lives() : counted_->livesOf(result->motion.motion_vectors);
+    if (lives.vectors == 0) {
+        lives_->setData({});
+        life_title_->clear();
+        return;
+    }
     life_title_->setText((wholeRun() ? tr("<b>Life</b> of the %1 motion vectors of the run, mean %2 frames; those in a "
                                           "track stay in it for %3 frames")
                                      : tr("<b>Life</b> in the run of the %1 motion vectors of this frame, mean %2 "

@@ -182,10 +182,15 @@ void PresetDialog::compare() {
         differences_->setItem(row, 2, presetCell(text(d.second)));
     }
     differences_->resizeColumnsToContents();
-    message_->setText(differences.empty()
-                          ? tr("“%1” is the same as %2.").arg(selected(), other_->currentText())
-                          : tr("“%1” differs from %2 in %n parameters.", nullptr, differences_->rowCount())
-                                .arg(selected(), other_->currentText()));
+    const QString with = other_->currentText();
+    if (!with_form && with == selected())
+        message_->setText(tr("Choose another preset, or another one to compare it with."));
+    else if (differences.empty())
+        message_->setText(tr("“%1” is the same as %2.").arg(selected(), with));
+    else if (differences.size() == 1)
+        message_->setText(tr("“%1” differs from %2 in one parameter.").arg(selected(), with));
+    else
+        message_->setText(tr("“%1” differs from %2 in %3 parameters.").arg(selected(), with).arg(differences.size()));
 }
 
 const ChainOptions* PresetDialog::optionsOf(const QString& name) {

@@ -10,10 +10,12 @@
 #include <QProgressBar>
 #include <QPushButton>
 #include <QSpinBox>
+#include <QStackedWidget>
 #include <QVBoxLayout>
 
 #include "widgets/charts/sweep_chart.h"
 #include "widgets/display_text.h"
+#include "widgets/empty_state.h"
 #include "widgets/wiring.h"
 
 namespace eyrie::ui {
@@ -68,11 +70,16 @@ TrainingDialog::TrainingDialog(const std::filesystem::path& project, QWidget* pa
     buttons->addStretch(1);
     buttons->addWidget(use_);
     buttons->addWidget(close);
-    auto* right = new QVBoxLayout;
-    right->addWidget(chart_, 1);
+    auto* empty = new EmptyState;
+    empty->setTexts(
+        tr("How well the new classifier tells vehicles from everything else is drawn here, beside the one "
+           "that comes with the program."));
+    pages_ = new QStackedWidget;
+    pages_->addWidget(empty);
+    pages_->addWidget(chart_);
     auto* columns = new QHBoxLayout;
     columns->addWidget(buildSettings(), 2);
-    columns->addLayout(right, 3);
+    columns->addWidget(pages_, 3);
     auto* layout = new QVBoxLayout(this);
     layout->addLayout(columns, 1);
     layout->addWidget(message_);
@@ -119,6 +126,7 @@ QWidget* TrainingDialog::buildSettings() {
     auto* settings = new QWidget;
     projects_ = new QListWidget;
     projects_->setTextElideMode(Qt::ElideMiddle);
+    projects_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     auto* add = new QPushButton(tr("Add…"));
     auto* remove = new QPushButton(tr("Remove"));
     descriptor_ = comboOf(allDescriptors());
@@ -174,7 +182,10 @@ QWidget* TrainingDialog::buildSettings() {
 }
 
 void TrainingDialog::addProject(const QString& file) {
-    if (projects_->findItems(file, Qt::MatchExactly).isEmpty()) projects_->addItem(file);
+    if (projects_->findItems(file, Qt::MatchExactly).isEmpty()) {
+        projects_->addItem(file);
+        projects_->item(projects_->count() - 1)->setToolTip(file);
+    }
     enable();
 }
 
@@ -215,6 +226,7 @@ void TrainingDialog::showReport(const std::shared_ptr<const TrainingReport>& rep
     curves.series = {seriesOf(report->own, tr("this one"), 0, true),
                      seriesOf(report->shipped, tr("shipped with the program"), 1, false)};
     chart_->setData(std::move(curves));
+    pages_->setCurrentWidget(chart_);
     message_->setText(
         tr("Trained on %1; tested on %2. Area under the curve %3, of the shipped model %4. Written to %5.")
             .arg(report->samples, report->held_out)

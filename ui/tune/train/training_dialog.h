@@ -11,6 +11,7 @@ class QListWidget;
 class QProgressBar;
 class QPushButton;
 class QSpinBox;
+class QStackedWidget;
 
 namespace eyrie::ui {
 
@@ -56,6 +57,7 @@ class TrainingDialog : public QDialog {
     QLineEdit* file_;
     QProgressBar* progress_;
     QLabel* message_;
+    QStackedWidget* pages_;  ///< what will be drawn, then the chart
     SweepChart* chart_;
     QPushButton* start_;
     QPushButton* cancel_;

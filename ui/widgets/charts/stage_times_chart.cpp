@@ -14,6 +14,7 @@
 
 #include "widgets/charts/focus_ring.h"
 #include "widgets/charts/plot_colours.h"
+#include "widgets/elided_label.h"
 #include "widgets/empty_state.h"
 #include "widgets/theme_colours.h"
 
@@ -35,12 +36,11 @@ StageTimesChart::StageTimesChart(QWidget* parent)
     : QWidget(parent),
       stack_(new QStackedLayout(this)),
       empty_(new EmptyState(this)),
-      readout_(new QLabel(this)),
+      readout_(new ElidedLabel(Qt::ElideRight, this)),
       plot_(new QCustomPlot(this)) {
     empty_->setTexts(
         tr("No times yet. During a run, or when a run is chosen, this shows where the time of each frame goes."));
     readout_->setContentsMargins(4, 2, 4, 2);
-    readout_->setTextInteractionFlags(Qt::TextSelectableByMouse);
     readout_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
     auto* chart = new QWidget(this);
     auto* layout = new QVBoxLayout(chart);

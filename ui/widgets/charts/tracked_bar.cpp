@@ -82,8 +82,7 @@ const TrackedShare* TrackedBar::shareAt(QPointF place) const {
 void TrackedBar::paintEvent(QPaintEvent*) {
     QPainter painter(this);
     painter.setPen(palette().color(QPalette::WindowText));
-    painter.drawText(QRectF(4, 0, width() - 8, fontMetrics().height() + 2), Qt::AlignLeft | Qt::AlignVCenter,
-                     headline());
+    painter.drawText(QRectF(0, 0, width(), fontMetrics().height() + 2), Qt::AlignLeft | Qt::AlignVCenter, headline());
     const QRectF area = columns();
     painter.fillRect(area, palette().color(QPalette::Base));
     const QColor grid = blend(palette().color(QPalette::Base), palette().color(QPalette::WindowText), 0.25);

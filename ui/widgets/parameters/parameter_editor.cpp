@@ -37,6 +37,7 @@ void fill(ParameterEditor* editor, QWidget* field, QWidget* slider = nullptr) {
         slider->installEventFilter(new WheelGuard(editor));
         slider->setFocusPolicy(Qt::ClickFocus);
         layout->addWidget(slider, 2);
+        field->setMinimumWidth(slider->minimumWidth());  // else whole and real numbers would not stand in a column
     }
     layout->addWidget(field, 3);
     field->setFocusPolicy(Qt::StrongFocus);

@@ -219,7 +219,8 @@ int TablePanel::neededWidth(int column) const {
     int needed = view->sizeHintForColumn(column) + 1;
     if (const auto most = mostCharacters(column))
         needed = std::min(needed, *most * view->fontMetrics().averageCharWidth());
-    return std::max(own, needed);
+    // Headers allow none narrower: one that counts as fitted narrower than it is would count as somebody's choice.
+    return std::max({own, needed, header->minimumSectionSize()});
 }
 
 void TablePanel::fitColumns() {
@@ -378,7 +379,7 @@ void TablePanel::restoreColumns() {
     columns_fit_ = !state.isEmpty() && table_->horizontalHeader()->restoreState(state);
     if (columns_fit_) {
         for (const QVariant& width : QSettings().value(settings_key_ + kFittedKey).toList())
-            fitted_widths_ << width.toInt();
+            fitted_widths_ << std::max(width.toInt(), table_->horizontalHeader()->minimumSectionSize());
         // Before it was kept, a memory told of as many columns as it has widths.
         known_columns_ = QSettings().value(settings_key_ + kKnownKey, static_cast<int>(fitted_widths_.size())).toInt();
         // A list that never had a row has widths that fit nothing.

@@ -30,7 +30,7 @@ OverlayButton::OverlayButton(OverlaySettings& overlays, const WindowActions& act
 void OverlayButton::buildMenu() {
     auto* menu = new QMenu(this);
     for (const ActionSection& section : actions_.sections())
-        if (section.actions.contains(actions_.labels)) menu->addActions(section.actions);
+        if (section.actions.contains(actions_.labels)) actions_.fill(*menu, section);
     auto* row = new QWidget(menu);
     auto* layout = new QHBoxLayout(row);
     layout->setContentsMargins(28, 2, 8, 2);
@@ -57,7 +57,7 @@ void OverlayButton::refresh() {
     // Whoever sees no tracks should know that they are hidden.
     setChecked(overlays_.hidden());
     for (const OverlayRow& row : overlayTable())
-        actions_.overlay.at(row.kind)->setIcon(swatch(row.colour(overlays_.style()), 16));
+        actions_.overlay.at(row.kind)->setIcon(switchedSwatch(row.colour(overlays_.style()), 16));
 }
 
 }  // namespace eyrie::ui

@@ -162,8 +162,10 @@ void StatusFields::showCursor(std::optional<QPointF> image_point) {
     cursor_->setText(text);
 }
 
-void StatusFields::showZoom(double zoom) {
-    zoom_->setText(session_.video() ? tr("%1 %").arg(std::lround(zoom * 100)) : QString());
+void StatusFields::showZoom(double zoom, bool ground_held) {
+    QString text = session_.video() ? tr("%1 %").arg(std::lround(zoom * 100)) : QString();
+    if (!text.isEmpty() && ground_held) text += tr("   ground held still");
+    zoom_->setText(text);
 }
 
 void StatusFields::showRun(const RunProgress& progress) {
@@ -179,7 +181,7 @@ void StatusFields::showRun(const RunProgress& progress) {
         progress.frames_total > 0 ? progress.frames_done / static_cast<double>(progress.frames_total) : 0;
     const int percent = static_cast<int>(share * 100);
     QString text =
-        progress.estimating_scale ? tr("looking at the scale: %1 %").arg(percent) : tr("run: %1 %").arg(percent);
+        progress.estimating_scale ? tr("estimating the scale: %1 %").arg(percent) : tr("run: %1 %").arg(percent);
     if (!progress.estimating_scale && progress.frames_per_second > 0)
         text += tr("   %1 fps   %2")
                     .arg(QLocale().toString(progress.frames_per_second, 'f', 1), leftText(progress.seconds_left));

@@ -40,7 +40,7 @@ class StatusFields : public QObject {
     void showPlace();
     /// The time at which the frame was taken may be another now.
     void showClock();
-    void showZoom(double zoom);
+    void showZoom(double zoom, bool ground_held);
 
  private:
     void stop();

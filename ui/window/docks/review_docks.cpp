@@ -47,18 +47,19 @@ ReviewDocks::ReviewDocks(const ReviewParts& parts) : QObject(&parts.docks), part
     docks.watch(DockId::stages, stages_, [this](bool visible) { stages_->setLookedAt(visible); });
     docks.watch(DockId::stacks, stacks_, [this](bool visible) { stacks_->setLookedAt(visible); });
     docks.watch(DockId::statistics, statistics_, [this](bool visible) { statistics_->setLookedAt(visible); });
-    whenChanged(session_, this,
-                {
-                    {{SessionChange::video, SessionChange::runs, SessionChange::current_run, SessionChange::run_started,
-                      SessionChange::run_ended},
-                     [this] { showRuns(); }},
-                    {SessionChange::run_data, [this] { adoptAwaitedParameters(); }},
-                    {{SessionChange::current_run, SessionChange::run_data}, [this] { showTracks(); }},
-                    {{SessionChange::video, SessionChange::run_started, SessionChange::run_ended},
-                     [this] { explainNoTracks(); }},
-                    {SessionChange::picture, [this] { tracks_->setShownFrame(session_.shownFrame()); }},
-                    {SessionChange::selection, [this] { tracks_->selectId(session_.selectedTrack().value_or(0)); }},
-                });
+    whenChanged(
+        session_, this,
+        {
+            {{SessionChange::video, SessionChange::runs, SessionChange::current_run, SessionChange::run_started,
+              SessionChange::run_ended},
+             [this] { showRuns(); }},
+            {SessionChange::run_data, [this] { adoptAwaitedParameters(); }},
+            {{SessionChange::current_run, SessionChange::run_data}, [this] { showTracks(); }},
+            {{SessionChange::video, SessionChange::run_preparing, SessionChange::run_started, SessionChange::run_ended},
+             [this] { explainNoTracks(); }},
+            {SessionChange::picture, [this] { tracks_->setShownFrame(session_.shownFrame()); }},
+            {SessionChange::selection, [this] { tracks_->selectId(session_.selectedTrack().value_or(0)); }},
+        });
     wireRuns();
     wireTracks();
     showRuns();
