@@ -27,9 +27,8 @@ struct LabelImport {
 /// What an import adds to: labels as they are, and the first numbers that are free. A value, so that a plan can be made
 /// on any thread while the store goes its way.
 struct ImportGround {
-    /// Takes numbers of the store.
-    explicit ImportGround(AnnotationStore& store)
-        : present(store.annotations()), first_object(store.newObjectId()), first_region(store.newRegionId()) {}
+    explicit ImportGround(const AnnotationStore& store)
+        : present(store.annotations()), first_object(store.nextObjectId()), first_region(store.nextRegionId()) {}
 
     AnnotationSet present;
     ObjectId first_object;  ///< this and all above; 1 in a project that never had an object
@@ -40,8 +39,8 @@ struct ImportGround {
 /// stays within `tolerance_px` of every box; 0 makes every box a keyframe. Nothing that is there is touched. Ids of the
 /// file are kept in a project that never had an object; otherwise they are the next free ones of `ground`. Boxes that
 /// belong to no object become objects of their own, as `loose` says. Boxes behind the video's last frame are left out;
-/// notes say how many. So are, unless `doubles` says
-/// otherwise, objects and regions that the project has already, within a pixel: a file imported twice adds nothing.
+/// notes say how many. So are, unless `doubles` says otherwise, objects and regions that the project has already,
+/// within a pixel: a file imported twice adds nothing.
 LabelImport planImport(LabelFile labels, const SequenceRecord& sequence, const CameraMotion& camera,
                        const ImportGround& ground, double tolerance_px, Doubles doubles = Doubles::skip,
                        LooseBoxes loose = LooseBoxes::single);

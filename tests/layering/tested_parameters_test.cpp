@@ -123,7 +123,7 @@ TEST(TestedParameters, eachIsNamedOrSetInATest) {
 
 // Who reads a preset finds the field, and the other way round. px and frames are no part of a name.
 TEST(TestedParameters, eachIsCalledLikeItsFieldButForTheUnit) {
-    const std::set<std::string> units{"", "_m", "_m2", "_m_s", "_m_s2", "_kmh", "_s", "_deg", "_sigmas"};
+    const std::set<std::string> units{"", "_m", "_m2", "_m_s", "_m_s2", "_kmh", "_s", "_hz", "_deg", "_sigmas"};
     for (const auto& [name, parameter] : declaredParameters()) {
         const std::string own = name.substr(name.find('.') + 1);
         const bool alike = parameter.field.compare(0, own.size(), own) == 0;

@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
+#include <random>
 #include <set>
 #include <string>
 #include <tuple>
@@ -389,6 +391,33 @@ double headingError(bool follow_turns) {
     const cv::Point2d expected =
         MovingCorners::mapped(camera, end) - MovingCorners::mapped(camera, end - patch.velocityAt(18));
     return std::abs(std::atan2(sum.cross(expected), sum.dot(expected)));
+}
+
+TEST(IndependentMotion, FindsASlowVehicleOnStillGroundBesideRelief) {
+    const auto found = [](double cell) {
+        IndependentMotionOptions options = plain();
+        options.noise_cell = cell;
+        options.min_speed_m_s = 0;
+        options.parallax.parallax_test = false;
+        MovingCorners scene({{{150, 240}, {0.12, 0}}}, 0, 3, 4000);
+        const CornerId first = scene.backgroundCount() + 1;
+        std::mt19937 random(7);
+        std::normal_distribution<float> noise;
+        IndependentMotion motion(options, kScale);
+        FrameMotion last;
+        for (int t = 0; t < 16; ++t) {
+            RegisteredFrame frame = scene.next();
+            for (Corner& corner : frame.corners) {
+                const float much = corner.current.x < 230 ? 0.05F : 0.5F;  // a road, then relief
+                corner.current += cv::Point2f(much * noise(random), much * noise(random));
+            }
+            last = motion.next(frame, flatFrame(t));
+        }
+        return std::count_if(last.motion_vectors.begin(), last.motion_vectors.end(),
+                             [&](const MotionVector& v) { return v.id >= first && !v.isInferred(); });
+    };
+    EXPECT_GE(found(0.0625), 20);
+    EXPECT_LE(found(0), 8);
 }
 
 TEST(IndependentMotion, FollowsTurns) {

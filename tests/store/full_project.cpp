@@ -5,6 +5,7 @@
 
 #include "store/labels/annotation_store.h"
 #include "store/labels/label_samples.h"
+#include "store/labels/rejected_proposals.h"
 #include "store/project/project_presets.h"
 #include "store/review/review_samples.h"
 #include "store/review/review_store.h"
@@ -36,6 +37,7 @@ void makeFullProject(const std::filesystem::path& path) {
     review.apply(sampleBookmarking(review.newBookmarkId()));
     review.undo();
     addSeen(project, 1, "Ada", {{0, 20}, {40, 50}});
+    rejectProposals(project, 1, {1, 2}, "Ada");
     savePreset(project, {"dusk", "", {{"gradient.quantile", "0.3"}, {"motion.min_speed", "2"}}});
     SweepStore sweeps(project);
     const int sweep = sweeps.add("quantile", 3, R"({"axes": []})");

@@ -133,7 +133,13 @@ void ProjectSession::saveProjectAs(const fs::path& target) {
 /// The copy is made. What was done meanwhile, and what is being written, goes into the former file; then nobody writes
 /// there any more, so that the rest can be copied.
 void ProjectSession::beginMove() {
-    if (!project_open_ || moved_from_ || running()) return;
+    if (running()) {
+        emit problem(
+            tr("The project was not saved under another name: a run has begun to write into it. Save again when "
+               "it has ended."));
+        return;
+    }
+    if (!project_open_ || moved_from_) return;
     keepWritten();
     moved_from_ = std::exchange(project_, {});
     emit changed(SessionChange::project);

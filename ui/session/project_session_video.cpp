@@ -77,8 +77,8 @@ void ProjectSession::mediaOpened(int ticket, const OpenedVideo& video) {
     }
     if (pending.purpose == Purpose::moved && isOfAnother(pending, video.info)) {
         showWithoutVideo(*pending.sequence, pending.run,
-                         tr("%1 is another video of this project, with runs and labels of its own. Put the video of "
-                            "these results at a place of its own, and locate it there")
+                         tr("%1 is another video of this project, with runs and labels of its own. Move the video of "
+                            "these results to another place, and locate it there")
                              .arg(QString::fromStdString(pending.media.identity)));
         return;
     }
@@ -177,6 +177,7 @@ bool ProjectSession::isAwaited() {
 void ProjectSession::projectOpened(const ProjectLists& lists) {
     if (!isAwaited()) return;
     keepWritten();
+    endMove();
     reader_.takeUp();
     moved_from_.reset();
     const bool opens_video = std::exchange(project_opens_video_, false);

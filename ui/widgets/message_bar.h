@@ -30,6 +30,7 @@ class MessageStrip : public QFrame {
     void dismissed();
 
  protected:
+    bool event(QEvent* event) override;
     void changeEvent(QEvent* event) override;
 
  private:

@@ -170,7 +170,8 @@ void MainWindow::buildCentre() {
     live_strip_ = new LiveStrip(session_);
     layout->addWidget(live_strip_);
     layout->addWidget(stack_, 1);
-    // Over the picture, not above it: what a person points at stays where it is when a message comes or goes.
+    // Over the picture, not in a row of its own: what a person points at stays where it is when a message comes or
+    // goes.
     messages_->setParent(centre);
     new TopOverlay(*messages_, *stack_, centre);
     setCentralWidget(centre);
@@ -351,16 +352,9 @@ void MainWindow::wireCanvas() {
 }
 
 void MainWindow::wireSession() {
-    const auto stay_open = [this] {
-        if (!write_wait_.waiting()) return;
-        write_wait_.cancel();
-        closing_ = false;
-        messages_->dismissTopic(kClosingTopic);
-    };
-    whenAny(&session_, this, stay_open, &ProjectSession::problem);
     whenChanged(session_, this,
                 {
-                    {SessionChange::keep_written, [this] { leaveCell(focusWidget()); }},
+                    {SessionChange::keep_written, [this] { leaveCell(QApplication::focusWidget()); }},
                     {SessionChange::video, [this] { showVideo(); }},
                     {SessionChange::picture, [this] { showPicture(); }},
                     {SessionChange::selection, [this] { canvas_->setSelectedTrack(session_.selectedTrack()); }},
@@ -481,11 +475,15 @@ void MainWindow::closeEvent(QCloseEvent* event) {
 /// stays where it could not be written, so that its message is read.
 bool MainWindow::waitsForWrites() {
     if (std::exchange(written_, false) || !write_wait_.anythingDue()) return false;
-    messages_->showTopic(kClosingTopic, MessageKind::info, tr("Storing what was done last; then the window closes."));
+    messages_->showTopic(kClosingTopic, MessageKind::info,
+                         tr("Saving your last changes. The window closes when they are stored."));
     write_wait_.begin([this](bool) {
         messages_->dismissTopic(kClosingTopic);
+        closing_ = false;
+        if (write_wait_.anythingFailed()) return;
         written_ = true;
         close();
+        written_ = false;
     });
     return true;
 }

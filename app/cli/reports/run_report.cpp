@@ -67,7 +67,7 @@ std::string whyNothing(const RunFacts& facts) {
             return "no frame was processed";
         case NothingFollowed::too_few_frames:
             return formatted(
-                "%d frame%s %s too few for a track, which takes at least %d (tracking.confirm_hits decides)",
+                "%d frame%s %s too few for a track, which needs at least %d (tracking.confirm_hits decides)",
                 facts.counts.frames, facts.counts.frames == 1 ? "" : "s", facts.counts.frames == 1 ? "is" : "are",
                 facts.frames_needed);
         case NothingFollowed::not_registered:

@@ -1,9 +1,11 @@
 #include "annotation/review/proposals.h"
 
 #include <algorithm>
+#include <cmath>
 #include <opencv2/core/utility.hpp>
 
 #include "annotation/edits/object_pieces.h"
+#include "annotation/keyframes/interpolation.h"
 #include "annotation/review/join_suggestions.h"
 
 namespace eyrie {
@@ -64,14 +66,27 @@ Proposal propose(const DenseTrack& track, const AnnotationSet& labelled, const C
 const LabelledObject* neighbourOf(const LabelledObject& proposed, const AnnotationSet& labelled,
                                   const CameraMotion& camera) {
     constexpr int kLongestGap = 50;  // frames
+    // Where both are seen, those that are far apart all the time are left out before anything is compared closely.
+    const auto near_in = [&](const LabelledObject& object) {
+        const FrameIndex first = std::max(firstFrameOf(object), firstFrameOf(proposed));
+        const FrameIndex last = std::min(object.last_frame, proposed.last_frame);
+        if (first > last) return true;
+        const auto near_at = [&](FrameIndex frame) {
+            const OrientedBox there = boxAt(object, frame, camera).box;
+            const OrientedBox here = boxAt(proposed, frame, camera).box;
+            return cv::norm(there.centre - here.centre) < there.length + here.length;
+        };
+        return near_at(first) || near_at((first + last) / 2) || near_at(last);
+    };
     AnnotationSet near;
     for (const auto& [id, object] : labelled.objects) {
         if (object.last_frame + kLongestGap < firstFrameOf(proposed)) continue;
         if (firstFrameOf(object) > proposed.last_frame + kLongestGap) continue;
+        if (!near_in(object)) continue;
         near.objects.emplace_hint(near.objects.end(), id, object);
     }
     if (near.objects.empty()) return nullptr;
-    const ObjectId id = near.objects.rbegin()->first + 1;
+    const ObjectId id = 0;  // proposals have no number yet
     near.objects[id] = proposed;
     near.objects[id].id = id;
     const auto fusions = suggestFusions(near, id, camera);

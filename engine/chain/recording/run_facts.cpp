@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "chain/chain_options.h"
-#include "core/error.h"
 
 namespace eyrie {
 namespace {
@@ -22,12 +21,8 @@ NothingFollowed firstGap(const RunCounts& counts, int frames_needed) {
 
 /// In the first frame nothing can have moved yet; a track is detected in later ones, however they follow.
 int framesNeeded(const RunStore& store, const RunRecord& run) {
-    try {
-        const TrackerOptions tracking = storedOptions(store.parameters(run.id)).tracking;
-        return 1 + std::max(1, tracking.atRate(run.scale.frame_rate_hz).confirm_hits);
-    } catch (const Error&) {
-        return 0;  // parameters of another version say nothing of this
-    }
+    const TrackerOptions tracking = storedOptions(store.parameters(run.id)).tracking;
+    return 1 + std::max(1, tracking.atRate(run.scale.frame_rate_hz).confirm_hits);
 }
 
 }  // namespace

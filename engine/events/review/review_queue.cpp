@@ -63,7 +63,7 @@ std::vector<QueueItem> reviewQueue(const std::vector<Event>& events, const std::
         }
         places.push_back(place);
     }
-    // What tells of one stop stands where the most urgent of it would.
+    // Events of one stop stand where the most urgent of them would.
     const std::vector<std::optional<std::size_t>> stops = stopsOf(events);
     const auto urgency = [](const Place& place) { return std::tie(place.item.group, place.rarity); };
     std::map<std::size_t, Place> first_of_stop;

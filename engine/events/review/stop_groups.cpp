@@ -35,7 +35,7 @@ std::vector<std::optional<std::size_t>> stopsOf(const std::vector<Event>& events
         for (std::size_t k = 1; k < steps.size(); ++k) {
             const Event& former = events[steps[k - 1]];
             const Event& later = events[steps[k]];
-            // What stands from another frame on than it stopped in had been moving between.
+            // If it stands from another frame on than it stopped in, it moved in between.
             const bool goes_on = *stepOf(former.kind) < *stepOf(later.kind) &&
                                  (later.kind == EventKind::stands ? later.first_frame == former.first_frame
                                                                   : later.first_frame > former.last_frame);

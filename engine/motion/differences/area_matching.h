@@ -14,7 +14,7 @@ struct AreaMatch {
 
 /// Looks for the best correlation of `pixels` of the picture `from` in the picture `to` (both CV_8UC1) within `reach`
 /// px around a shift by `around`, as far as the area stays in the picture with a pixel around it. To a fraction of a
-/// pixel. Nothing where it does not at `around` itself, is plain, or has more than 65,000 pixels.
+/// pixel. Nothing where it does not stay inside at `around` itself, is plain, or has more than 65,000 pixels.
 std::optional<AreaMatch> matchArea(const std::vector<cv::Point>& pixels, const cv::Mat& from, const cv::Mat& to,
                                    cv::Point around, int reach);
 

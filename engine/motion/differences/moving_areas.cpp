@@ -168,16 +168,18 @@ std::vector<cv::Point2d> spread(const DifferingArea& area, double spacing) {
 
 void MovingAreaOptions::describe(ParameterVisitor& visitor) {
     const ParameterDeclarer declare(visitor, ChainStage::motion);
-    declare.flag("motion.areas", areas,
-                 {"",
-                  "Where registered pictures differ and corners starve, as on vehicles of few pixels, measure the "
-                  "motion of the whole area that differs.",
-                  "Teutsch §2.2, eq. 2.2"});
-    declare.real("motion.area_max_corners", area_max_corners, 0, 10000,
-                 {"",
-                  "Only while fewer corners than this lie on a car at their mean density. Larger: also where vehicles "
-                  "carry more corners, with more false areas.",
-                  ""});
+    declare.flag(
+        "motion.areas", areas,
+        {"",
+         "Where registered pictures differ and corners starve, as on vehicles of few pixels or in video of few "
+         "frames a second, measure the motion of the whole area that differs.",
+         "Teutsch §2.2, eq. 2.2"});
+    declare.real(
+        "motion.area_max_corners", area_max_corners, 0, 10000,
+        {"",
+         "Only while fewer corners than this lie on a car at their mean density, unless the video has fewer frames a "
+         "second than motion.area_low_rate. Larger: also where vehicles carry more corners, with more false areas.",
+         ""});
     declare.real(
         "motion.area_few_corners", area_few_corners, 0, 10000,
         {"", "Where a car carries at least this many corners, areas are used only if they agree very well.", ""});

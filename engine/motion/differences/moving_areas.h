@@ -45,7 +45,8 @@ struct DifferingArea {
 /// pictures differ where it drives (3-frame difference, Teutsch §2.2, eq. 2.2). Each area that differs is laid over the
 /// newest picture and the oldest: where it went shows its velocity, and that it is the same thing in all three. What
 /// stands and only seems to differ, at edges, does not go anywhere. Areas that hold vectors of corners already get
-/// none.
+/// none. Below `area_low_rate_hz` a vehicle goes too far for its corners to be followed, so that areas are looked at
+/// whatever it carries.
 class MovingAreas {
  public:
     MovingAreas(const MovingAreaOptions& options, const SceneScale& scale);

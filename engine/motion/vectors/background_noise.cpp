@@ -8,7 +8,6 @@ namespace eyrie {
 namespace {
 
 constexpr double kRayleighMedian = 1.17741;  ///< median of a Rayleigh distribution with σ = 1
-constexpr std::size_t kEnoughCorners = 60;
 
 }  // namespace
 

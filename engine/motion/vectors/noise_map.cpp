@@ -8,13 +8,14 @@
 namespace eyrie {
 namespace {
 
-constexpr std::size_t kEnoughCorners = 60;
 constexpr double kLeast = 0.3;    ///< corners are measured no better than that, however plain the ground
 constexpr double kClearly = 0.8;  ///< a share above may be chance
+constexpr double kSmallestCell_px = 4;
 
 }  // namespace
 
-NoiseMap::NoiseMap(cv::Size image, double cell) : cell_(cell * image.width), grid_(0, 0) {
+NoiseMap::NoiseMap(cv::Size image, double cell)
+    : cell_(cell > 0 && image.width > 0 ? std::max(cell * image.width, kSmallestCell_px) : 0), grid_(0, 0) {
     if (cell_ <= 0) return;
     grid_ = {static_cast<int>(std::ceil(image.width / cell_)), static_cast<int>(std::ceil(image.height / cell_))};
     shares_.resize(static_cast<std::size_t>(grid_.area()));
@@ -22,8 +23,11 @@ NoiseMap::NoiseMap(cv::Size image, double cell) : cell_(cell * image.width), gri
 }
 
 cv::Point NoiseMap::cellOf(cv::Point2f position) const {
-    return {std::clamp(static_cast<int>(position.x / cell_), 0, grid_.width - 1),
-            std::clamp(static_cast<int>(position.y / cell_), 0, grid_.height - 1)};
+    // Limited before it is whole: places may be far out, or no number.
+    const auto inside = [this](float at, int cells) {
+        return static_cast<int>(std::min(std::max(0.0, at / cell_), cells - 1.0));
+    };
+    return {inside(position.x, grid_.width), inside(position.y, grid_.height)};
 }
 
 void NoiseMap::add(cv::Point2f position, double share) {

@@ -6,6 +6,9 @@
 
 namespace eyrie {
 
+/// Fewer corners do not tell how much standing ones seem to move.
+constexpr std::size_t kEnoughCorners = 60;
+
 /// The middle of the values, which must not be empty; the upper one of the two when their number is even. Changes their
 /// order.
 inline float upperMedianOf(std::vector<float>& values) {

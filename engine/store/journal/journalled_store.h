@@ -97,6 +97,8 @@ class JournalledStore {
         while (present.contains(id)) id = numbers_[table].take();  // never where the counter is sound
         return id;
     }
+    /// The first id that is free, not handed out.
+    int nextId(std::size_t table) const { return numbers_[table].next(); }
 
  private:
     enum class Step { edit, undo, redo };

@@ -28,6 +28,8 @@ class NumberCounter {
     /// From the project; also where the counter is damaged or lost, it is behind every number that is there.
     void read(SQLite::Database& database);
     int take() { return next_++; }
+    /// What take() would give.
+    int next() const { return next_; }
     /// `id` was used.
     void follow(int id);
     void store(SQLite::Database& database) const { raiseCounter(database, table_.counter, next_); }

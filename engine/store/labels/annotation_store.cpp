@@ -17,18 +17,17 @@ namespace {
 
 /// Runs and labels of two videos are never taken for those of one.
 void refuseTwoVideosOfAPath(ProjectFile& project, int sequence_id, const std::string& path) {
-    SQLite::Statement other(
-        project.database(),
-        "SELECT other.id, moved.path FROM sequence AS moved JOIN sequence AS other ON other.width = "
-        "moved.width AND other.height = moved.height WHERE moved.id = ?1 AND other.id <> ?1 AND "
-        "other.path = ?2");
+    SQLite::Statement other(project.database(),
+                            "SELECT moved.path FROM sequence AS moved JOIN sequence AS other ON other.width = "
+                            "moved.width AND other.height = moved.height WHERE moved.id = ?1 AND other.id <> ?1 AND "
+                            "other.path = ?2");
     other.bind(1, sequence_id);
     other.bind(2, path);
     if (!other.executeStep()) return;
     throw Error(ErrorKind::parameter,
                 "the project " + project.path().string() + " has another video at " + path +
-                    ", with runs and labels of its own: those of " + other.getColumn(1).getString() +
-                    " stay where they are. Put that video back to its place, or at a place of its own, and locate it "
+                    ", with runs and labels of its own: those of " + other.getColumn(0).getString() +
+                    " stay as they are. Put that video back where it was, or in a place of its own, and locate it "
                     "there");
 }
 

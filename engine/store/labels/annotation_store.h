@@ -50,6 +50,9 @@ class AnnotationStore : public JournalledStore<LabelContent> {
 
     const AnnotationSet& annotations() const { return content(); }
     ObjectId newObjectId() { return newId(0, annotations().objects); }
+    /// The first that are free, not handed out.
+    ObjectId nextObjectId() const { return nextId(0); }
+    int nextRegionId() const { return nextId(1); }
     int newRegionId() { return newId(1, annotations().regions); }
 };
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "label/lists/object_inspector.h"
 #include "ui/label/labelling.h"
 #include "ui/support/full_disk.h"
 #include "ui/support/ui_test.h"

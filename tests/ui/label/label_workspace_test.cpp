@@ -31,20 +31,21 @@ class LabelWorkspaceTest : public QObject, test::Labelling {
         const auto window = labellingWindow(5);
         QVERIFY(window);
         auto* objects = window->findChild<QDockWidget*>(QStringLiteral("objects"));
-        auto* runs = window->findChild<QDockWidget*>(QStringLiteral("runs"));
-        QVERIFY(objects->isVisible() && !runs->isVisible());
+        auto* tracks = window->findChild<QDockWidget*>(QStringLiteral("tracks"));
+        QVERIFY(objects->isVisible());
+        QVERIFY(tracks->isHidden());
         QVERIFY(!window->overlays().isVisible(TrackLayer::kKind));
         key(*window, Qt::Key_C);  // copies a box, here only
         QVERIFY(!window->overlays().isVisible(CornerLayer::kKind));
         key(*window, Qt::Key_1, Qt::ControlModifier);
         QVERIFY(!window->labelling().active());
-        QVERIFY(!objects->isVisible() && runs->isVisible());
+        QVERIFY(!objects->isVisible() && !tracks->isHidden());
         QVERIFY(window->overlays().isVisible(TrackLayer::kKind));
         key(*window, Qt::Key_C);
         QVERIFY(!window->overlays().isVisible(CornerLayer::kKind));
         key(*window, Qt::Key_2, Qt::ControlModifier);
         QVERIFY(window->labelling().active());
-        QVERIFY(objects->isVisible() && !runs->isVisible());
+        QVERIFY(objects->isVisible() && !tracks->isVisible());
     }
 
     void noTwoKeysOfTheWorkspaceAreTheSame() {

@@ -42,7 +42,7 @@ class RunTextTest : public QObject {
         found.nothing = NothingFollowed::too_few_frames;
         found.counts.frames = 3;
         found.frames_needed = 6;
-        QCOMPARE(whyNoTracks(found), QStringLiteral("3 frames are too few for a track, which takes at least 6 "
+        QCOMPARE(whyNoTracks(found), QStringLiteral("3 frames are too few for a track, which needs at least 6 "
                                                     "(tracking.confirm_hits)."));
         found.counts.frames = 1;
         QVERIFY(whyNoTracks(found).startsWith(QStringLiteral("1 frame is too few")));

@@ -20,6 +20,15 @@ class MessageOverlayTest : public QObject {
     std::unique_ptr<test::OwnHome> home_;
 
     static QRect onScreen(const QWidget& widget) { return {widget.mapToGlobal(QPoint()), widget.size()}; }
+    /// Its project is open and its first picture in view.
+    static bool settled(MainWindow& window) {
+        return QTest::qWaitFor(
+            [&] {
+                return !window.session().project().empty() && !window.session().opening() &&
+                       !window.canvas().frame().image.isNull();
+            },
+            kPatience_ms);
+    }
 
  private slots:
     void init() { home_ = std::make_unique<test::OwnHome>(); }
@@ -29,6 +38,7 @@ class MessageOverlayTest : public QObject {
         const auto window = windowWithVideo();
         QVERIFY(window);
         VideoView& canvas = window->canvas();
+        QVERIFY(settled(*window));
         MessageBar& messages = window->messages();
         messages.dismissAll();
         QCoreApplication::processEvents();
@@ -56,6 +66,7 @@ class MessageOverlayTest : public QObject {
     void aMessageIsClosedWithKeys() {
         const auto window = windowWithVideo();
         QVERIFY(window);
+        QVERIFY(settled(*window));
         window->messages().dismissAll();
         const QString text = QStringLiteral("cannot read a.mp4");
         window->messages().showMessage(MessageKind::error, text);

@@ -395,23 +395,6 @@ class WatchingTest : public QObject {
         QVERIFY(card.subject()->event == 0 && !card.note().isVisible());
     }
 
-    void whatWasWatchedAndDoneLastIsKeptWhenTheWindowIsClosedAtOnce() {
-        ProjectSession& session = window().session();
-        QTRY_VERIFY_WITH_TIMEOUT(window().events().review().state() == EventReview::State::found, kPatience_ms);
-        const std::filesystem::path path = session.project();
-        const RunRecord run = *session.shownRun();
-        QVERIFY(goTo(0));
-        session.playback().setSpeed(1, 0);
-        session.togglePlay();
-        QTRY_VERIFY_WITH_TIMEOUT(!session.playback().playing(), kPatience_ms);
-        session.renameRun(run.id, QStringLiteral("the last thing done"));
-        window().close();
-        QTRY_VERIFY_WITH_TIMEOUT(!window().isVisible(), kPatience_ms);
-        ProjectFile project = ProjectFile::open(path, ProjectFile::Mode::read_only);
-        QVERIFY(!seenByAnybody(project, run.sequence.id).empty());
-        QCOMPARE(RunStore(project).run(run.id)->name, std::string("the last thing done"));
-    }
-
     void whatWasWatchedIsCounted() {
         const auto share = [&] {
             const QString text = window().events().panel().headerText();
@@ -427,6 +410,23 @@ class WatchingTest : public QObject {
         QTRY_VERIFY_WITH_TIMEOUT(share() > 0, kPatience_ms);
         QVERIFY(share() <= 100);
         QVERIFY2(window().timeline().watched() && !window().timeline().watched()->empty(), "the timeline shows where");
+    }
+
+    void whatWasWatchedAndDoneLastIsKeptWhenTheWindowIsClosedAtOnce() {
+        ProjectSession& session = window().session();
+        QTRY_VERIFY_WITH_TIMEOUT(window().events().review().state() == EventReview::State::found, kPatience_ms);
+        const std::filesystem::path path = session.project();
+        const RunRecord run = *session.shownRun();
+        QVERIFY(goTo(0));
+        session.playback().setSpeed(1, 0);
+        session.togglePlay();
+        QTRY_VERIFY_WITH_TIMEOUT(!session.playback().playing(), kPatience_ms);
+        session.renameRun(run.id, QStringLiteral("the last thing done"));
+        window().close();
+        QTRY_VERIFY_WITH_TIMEOUT(!window().isVisible(), kPatience_ms);
+        ProjectFile project = ProjectFile::open(path, ProjectFile::Mode::read_only);
+        QVERIFY(!seenByAnybody(project, run.sequence.id).empty());
+        QCOMPARE(RunStore(project).run(run.id)->name, std::string("the last thing done"));
     }
 };
 

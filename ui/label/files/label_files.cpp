@@ -103,7 +103,7 @@ void LabelImportDialog::giveUp() {
     importing_.request_stop();
     setEnabled(true);
     setBusy(true);
-    text_->setPlainText(tr("The labels that these were for are not open any more. Nothing was imported."));
+    text_->setPlainText(tr("The labels this import was for are no longer open. Nothing was imported."));
     reject();
 }
 

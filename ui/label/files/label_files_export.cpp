@@ -84,7 +84,7 @@ ExportSource labelExport(const LabelSession& labels) {
         if (!labels.isOpen() || of != std::vector<std::filesystem::path>{labels.projectPath(), labels.sequence().path})
             return [](const ExportProgress&, const std::stop_token&) -> QString {
                 throw Error(ErrorKind::input,
-                            tell("the labels that were to be exported are not open any more").toStdString());
+                            tell("the labels that were to be exported are no longer open").toStdString());
             };
         return [set = labels.annotations(), sequence = labels.sequence(), camera = labels.sharedCamera(), wish](
                    const ExportProgress&, const std::stop_token& stop) {

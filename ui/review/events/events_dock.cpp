@@ -228,7 +228,7 @@ void EventsDock::explainNothing() {
             text = tr("Looking for events…");
             break;
         case EventReview::State::failed:
-            text = tr("Events could not be read; the message above the video says why.");
+            text = tr("Events could not be read; the message over the video says why.");
             break;
         case EventReview::State::found: {
             const QString no_event = tr("Nothing that happened counts as an event with these limits.");

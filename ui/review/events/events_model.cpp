@@ -2,6 +2,7 @@
 
 #include <QStringList>
 #include <algorithm>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -54,13 +55,13 @@ void EventsModel::setVerdict(std::size_t position, const Verdict* verdict) {
 }
 
 void EventsModel::joinStops(std::vector<EventEntry>& entries) const {
-    std::map<std::size_t, std::size_t> first_of_stop;
+    std::map<std::pair<std::size_t, Judgement>, std::size_t> first_of_stop;
     for (EventEntry& entry : entries) {
         entry.others.clear();
         entry.in_row_of.reset();
         const auto stop = found_->stopAt(entry.position);
         if (!stop || !is_listed_(entry)) continue;
-        const auto [first, is_new] = first_of_stop.try_emplace(*stop, entry.position);
+        const auto [first, is_new] = first_of_stop.try_emplace({*stop, entry.judgement}, entry.position);
         EventEntry& row = entries[first->second];
         if (is_new || !saysNoMore(entry, row)) continue;
         row.others.push_back(entry.position);
@@ -72,11 +73,17 @@ void EventsModel::joinStops() {
     if (!found_) return;
     std::vector<EventEntry> joined = records();
     joinStops(joined);
-    for (int row = 0; row < rowCount(); ++row) {
-        EventEntry& entry = joined[static_cast<std::size_t>(row)];
-        if (entry.others != recordAt(row)->others || entry.in_row_of != recordAt(row)->in_row_of)
-            changeRecord(row, std::move(entry));
+    const auto differs = [this](const EventEntry& entry) {
+        const EventEntry& now = *recordAt(static_cast<int>(entry.position));
+        return entry.others != now.others || entry.in_row_of != now.in_row_of;
+    };
+    constexpr std::ptrdiff_t kFew = 64;  // told one by one; more at once
+    if (std::count_if(joined.begin(), joined.end(), differs) > kFew) {
+        mergeRecords(std::move(joined));
+        return;
     }
+    for (EventEntry& entry : joined)
+        if (differs(entry)) changeRecord(static_cast<int>(entry.position), std::move(entry));
 }
 
 int EventsModel::rowIdOf(int id) const {
@@ -157,7 +164,7 @@ QVariant EventsModel::data(const QModelIndex& index, int role) const {
 QString EventsModel::tipOf(const EventEntry& entry) const {
     QStringList lines{eventTipText(*found_, entry.position)};
     for (const std::size_t place : entry.others)
-        lines << tr("With it: %1").arg(eventTipText(*found_, place).section(QLatin1Char('\n'), 0, 0));
+        lines << tr("Also in this row: %1").arg(eventTipText(*found_, place).section(QLatin1Char('\n'), 0, 0));
     const QString moment = clock_.text(found_->framesAt(entry.position).first);
     if (!moment.isEmpty()) lines << tr("%1, %2 in the video").arg(moment, eventClockText(*found_, entry.position));
     const QString said = judgedText(entry.judgement, entry.person, entry.judged_utc);

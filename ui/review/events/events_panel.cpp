@@ -227,7 +227,9 @@ void EventsPanel::showHidden() {
 void EventsPanel::showCounts(std::size_t left, const QStringList& corrections) {
     left_ = left;
     left_corrections_ = corrections;
+    const int current = currentId();
     events_->joinStops();
+    if (current != 0 && events_->rowIdOf(current) != current) selectId(events_->rowIdOf(current));
     EventKindsButton::Counts counts{};
     for (int row = 0; row < events_->rowCount(); ++row)
         ++counts.at(static_cast<std::size_t>(listedKindAt(*events_->found(), events_->recordAt(row)->position)));
@@ -303,8 +305,9 @@ void EventsPanel::showHeader() {
     QStringList tips;
     if (events_->rowCount() > 0)
         tips << tr(
-            "Events are counted, not rows: that a vehicle stops, stands and starts again are three events in one row, "
-            "judged together.");
+            "Events are counted, not rows: a vehicle that stops, stands and starts again makes three events in one "
+            "row, "
+            "which are judged together.");
     if (query_ != nullptr)
         tips << tr(
             "The chips above the list of tracks narrow the events, too: one is listed where one of its tracks "

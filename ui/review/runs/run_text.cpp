@@ -63,9 +63,9 @@ QString whyNoTracks(const RunFacts& facts) {
             return tr("No frame was processed.");
         case NothingFollowed::too_few_frames:
             return facts.counts.frames == 1
-                       ? tr("1 frame is too few for a track, which takes at least %1 (tracking.confirm_hits).")
+                       ? tr("1 frame is too few for a track, which needs at least %1 (tracking.confirm_hits).")
                              .arg(QLocale().toString(facts.frames_needed))
-                       : tr("%1 frames are too few for a track, which takes at least %2 (tracking.confirm_hits).")
+                       : tr("%1 frames are too few for a track, which needs at least %2 (tracking.confirm_hits).")
                              .arg(QLocale().toString(facts.counts.frames), QLocale().toString(facts.frames_needed));
         case NothingFollowed::not_registered:
             return tr("No frame could be registered onto the one before it (%1), so no motion could be measured. "

@@ -172,7 +172,7 @@ class BackgroundQuery::Tasks : public std::enable_shared_from_this<Tasks> {
             at_work_ = job->stop;
             writing_ = job->is_write;
             lock.unlock();
-            run(*job);
+            if (!run(*job) && job->is_write) pool_.countFailedWrite();
             job.reset();  // what it holds goes before anybody hears that it is done
             lock.lock();
             at_work_.reset();
@@ -182,12 +182,15 @@ class BackgroundQuery::Tasks : public std::enable_shared_from_this<Tasks> {
         schedule();
     }
 
-    static void run(const Job& job) {
+    /// False where it failed.
+    static bool run(const Job& job) {
         try {
             job.work(job.task);
+            return true;
         } catch (const std::exception& error) {
-            if (!job.failed) return;
-            job.task.tell([failed = job.failed, message = QString::fromUtf8(error.what())] { failed(message); });
+            if (job.failed)
+                job.task.tell([failed = job.failed, message = QString::fromUtf8(error.what())] { failed(message); });
+            return false;
         }
     }
 

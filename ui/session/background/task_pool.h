@@ -32,6 +32,9 @@ class TaskPool {
     /// there is none. Counted by BackgroundQuery::write(). On any thread.
     int writesDue() const { return writes_due_; }
     void countWrites(int more) { writes_due_ += more; }
+    /// How many writes have failed so far.
+    int writesFailed() const { return writes_failed_; }
+    void countFailedWrite() { ++writes_failed_; }
 
  private:
     bool idleIsDue() const { return !idle_.empty() && !idle_at_work_; }
@@ -39,6 +42,7 @@ class TaskPool {
     void work();
 
     std::atomic<int> writes_due_ = 0;
+    std::atomic<int> writes_failed_ = 0;
     std::mutex mutex_;
     std::condition_variable changed_;
     std::deque<Task> waited_for_;

@@ -16,6 +16,8 @@ class WrittenWait {
 
     bool anythingDue() const { return pool_->writesDue() > 0; }
     bool waiting() const { return then_ != nullptr; }
+    /// Whether a write has failed since begin(): its owner has told so, or is about to.
+    bool anythingFailed() const { return pool_->writesFailed() > failed_before_; }
     /// Calls `then` from the event loop once nothing is due, and what failed of it was told, or when this took too
     /// long: `all` says which. Takes the place of what was waited for before.
     void begin(std::function<void(bool all)> then);
@@ -28,6 +30,7 @@ class WrittenWait {
     std::function<void(bool all)> then_;
     std::chrono::steady_clock::time_point latest_{};
     bool none_due_ = false;  ///< when it was looked at last
+    int failed_before_ = 0;  ///< begin()
     QTimer look_again_;
 };
 

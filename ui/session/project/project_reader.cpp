@@ -151,7 +151,10 @@ class ProjectReader::Worker {
     }
 
     void move() {
-        if (!move_) return;
+        if (!move_) {
+            tell([this] { emit owner_.moveFailed(ProjectReader::tr("The copy of the project could not be made.")); });
+            return;
+        }
         try {
             move_->finish();
             ProjectFile copy = ProjectFile::open(move_->target());
