@@ -13,12 +13,12 @@ class NoiseMap {
     /// `cell`: side of a cell as a share of the picture's width; 0: the same noise everywhere.
     NoiseMap(cv::Size image, double cell);
 
-    /// A standing corner's speed in multiples of the whole picture's usual one.
+    /// A standing corner at `position`, px, and its speed in multiples of the whole picture's usual one.
     void add(cv::Point2f position, double share);
     /// To be called between the last `add` and the first `at`.
     void finish();
-    /// Noise in the cell here and those around it as a share of the whole picture's, 0.3 … 1; 1 where fewer than 60
-    /// corners stand.
+    /// Noise in the cell here and those around it as a share of the whole picture's: 0.3 … 0.8, or 1 where it is hardly
+    /// less or fewer than kEnoughCorners stand. `position`: px; outside the picture that of the nearest cell.
     double at(cv::Point2f position) const;
 
  private:

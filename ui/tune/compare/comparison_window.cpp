@@ -94,10 +94,11 @@ ComparisonWindow::ComparisonWindow(ProjectSession& session, PresetLibrary& prese
     layout->addWidget(splitter, 1);
 
     connect(header_, &ComparisonHeader::pairChosen, this, &ComparisonWindow::usePair);
-    bindSwitches(this, {{&header_->wipe(), [this](bool on) { views_->setWipe(on); }}, {detections_, [this] {
-                                                                                           followOverlays();
-                                                                                           showComparison();
-                                                                                       }}});
+    const auto compareOthers = [this](bool) {
+        followOverlays();
+        showComparison();
+    };
+    bindSwitches(this, {{&header_->wipe(), [this](bool on) { views_->setWipe(on); }}, {detections_, compareOthers}});
     whenAny(&overlays_, this, &ComparisonWindow::followOverlays, &OverlaySettings::changed);
     connect(&playback_, &Playback::frameDue, this, &ComparisonWindow::playOn);
     connect(&playback_, &Playback::playingChanged, this, [this](bool playing) {
