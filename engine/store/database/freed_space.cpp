@@ -33,8 +33,11 @@ void giveBackSpace(SQLite::Database& database, std::chrono::milliseconds most) {
     try {
         int left = freePages(database);
         while (left > 0) {
+            SQLite::Transaction step(database, SQLite::TransactionBehavior::IMMEDIATE);
+            // Only from here on does it keep others waiting; how long it waited for its own turn says nothing about a step.
             const auto begun = Clock::now();
             if (database.tryExec("PRAGMA incremental_vacuum(" + std::to_string(pages) + ")") != SQLITE_OK) return;
+            step.commit();
             const auto took = Clock::now() - begun;
             const int former = std::exchange(left, freePages(database));
             if (left == 0 || left >= former || Clock::now() >= until) return;
