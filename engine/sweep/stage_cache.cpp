@@ -266,7 +266,8 @@ std::shared_ptr<const StageCache::Detected> StageCache::detected(const Point& po
             const auto found = this->found(point, motion);
             count(ChainStage::removal);
             detected->frames.resize(motion.size());
-            const auto classifier = classifierOfBoxes(point.options, point.scale);
+            const auto classifier =
+                classifierOfBoxes(*makeDetector(point.options.detection, point.scale), point.options, point.scale);
             forFrames(point.stop, [&](std::size_t i, ClipFrames::Reader& reader) {
                 detected->frames[i] = removed((*found)[i], motion[i], point.options, point.scale);
                 if (classifier && classifier->looksAt(motion[i].frame))
