@@ -26,8 +26,8 @@ struct GroundTruth {
     std::vector<std::string> remarks{};  ///< which files were read besides, what was odd, what was left out
 };
 
-/// Nobody has labelled the video of a run. Apart, since the window, which shows the project and the video already,
-/// words it without their paths.
+/// Thrown where nobody has labelled the video of a run. A type of its own for who shows the video and its project
+/// already, and says so without their paths.
 class NothingLabelled : public Error {
  public:
     NothingLabelled(const std::filesystem::path& project, const std::string& video);

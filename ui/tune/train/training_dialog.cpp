@@ -27,7 +27,7 @@ constexpr std::size_t kMostPoints = 1000;  ///< of a curve on screen
 template <class Kind>
 QComboBox* comboOf(const std::vector<Kind>& kinds) {
     auto* combo = new QComboBox;
-    for (const Kind kind : kinds) combo->addItem(QString::fromLatin1(nameOf(kind)), static_cast<int>(kind));
+    for (const Kind kind : kinds) combo->addItem(QString::fromUtf8(titleOf(kind)), static_cast<int>(kind));
     return combo;
 }
 
