@@ -12,7 +12,7 @@
 
 #include "chain/chain.h"
 #include "chain/recording/classified_vehicles.h"
-#include "chain/scale_estimation.h"
+#include "chain/scale/scale_estimation.h"
 #include "core/error.h"
 #include "core/labels/result_box.h"
 #include "detection/detector_factory.h"

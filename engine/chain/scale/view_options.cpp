@@ -1,4 +1,4 @@
-#include "chain/view_options.h"
+#include "chain/scale/view_options.h"
 
 namespace eyrie {
 
