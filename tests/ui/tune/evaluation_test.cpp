@@ -179,7 +179,7 @@ class EvaluationTest : public QObject {
         std::filesystem::rename(project(), *home_ / "moved.eyrie");
         settings.wishes.overlap = 0.45;
         window->evaluation().evaluation().setSettings(settings);
-        QVERIFY(waitFor([&] { return test::says(panel, QStringLiteral("No curve over the score: ")); }));
+        QVERIFY(waitFor([&] { return test::says(panel, QStringLiteral("No curve by score: ")); }));
         QVERIFY(panel.scoreCurve().isHidden());
     }
 
