@@ -45,7 +45,7 @@ TrackHalf::TrackHalf(const ChainOptions& options, const SceneScale& scale)
       tracker_(options.tracking, scale) {
     if (options.difference.method != MotionMethod::vectors)
         difference_ = std::make_unique<DifferenceMotion>(options.difference, scale);
-    classifier_ = classifierOfBoxes(options, scale);
+    classifier_ = classifierOfBoxes(search_.detector(), options, scale);
     if (classifier_) scores_.emplace(scale);
     if (options.stacking.enabled) stacker_ = std::make_unique<ImageStacker>(options.stacking, scale);
 }

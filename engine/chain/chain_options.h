@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "chain/view_options.h"
+#include "chain/scale/view_options.h"
 #include "core/labels/track_class.h"
 #include "core/parameter.h"
 #include "core/values/scene_scale.h"

@@ -47,6 +47,7 @@ class ChainObserver {
     virtual void onState(const ChainState&) {}
 };
 
+/// Whether a run came to its end, was stopped by a person, or broke off.
 enum class RunOutcome { finished, stopped, failed };
 
 /// How a run ended.

@@ -9,6 +9,8 @@
 
 namespace eyrie {
 
+struct VehicleModel;
+
 /// What a detector makes of a motion ROI before the parameters come into play that are tuned most; see prepare().
 class PreparedArea {
  public:
@@ -34,6 +36,10 @@ class Detector {
     virtual std::vector<Detection> decide(const MotionRoi& roi, const PreparedArea* /*prepared*/) const {
         return detect(roi);
     }
+
+    /// The trained classifier that takes part, for who asks it about other boxes; null where none does. Lives as long
+    /// as the detector; copies of it share everything.
+    virtual const VehicleModel* model() const { return nullptr; }
 };
 
 }  // namespace eyrie

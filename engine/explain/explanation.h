@@ -13,6 +13,7 @@
 
 namespace eyrie {
 
+/// Whether what was compared lay on the right side of its limit; a note has no limit.
 enum class StepVerdict { passed, failed, note };
 
 /// One comparison on the way from pixels to a track.

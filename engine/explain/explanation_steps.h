@@ -31,7 +31,7 @@ struct Story {
     bool decided = false;
 };
 
-// The stages, in order. Each returns whether the story goes on.
+/// The stages, in order. Each returns whether the story goes on.
 bool tellRegistration(Story& story);
 /// Corners and independent motion.
 bool tellCorners(Story& story);
@@ -44,6 +44,7 @@ bool tellRemoval(Story& story, std::vector<int>& detections);
 /// What speaks for a finished track, and against it; nothing where it has no score. `fate`: passed where the track is
 /// in the result, failed where its score kept it out, note where something else did.
 void tellScore(Story& story, TrackId track, StepVerdict fate);
+/// What the tracker did with what is left in `detections`, or had there without any.
 void tellTracks(Story& story, const std::vector<int>& detections, const std::optional<DroppedState>& left_out);
 /// The track at the place that was left out of the result, or would be as it is not confirmed; nothing where one was
 /// stored.

@@ -68,10 +68,12 @@ struct LabelReport {
     std::vector<std::string> notes;
 };
 
+/// What is in the file, for people who are about to import it.
 LabelReport reportOn(const LabelFile& labels);
 
 /// Without the occlusions, for evaluation and our own tables.
 BoxesByFrame plainBoxes(const LabelBoxes& labels);
+/// The other way, with nothing occluded.
 LabelBoxes labelBoxes(const BoxesByFrame& boxes);
 
 /// Whether the box is neither upright nor upright after a quarter turn, so that an upright format loses its shape: an

@@ -47,6 +47,7 @@ struct ExportOptions {
     std::string tracker;  ///< TrackEval tree: write the boxes as this tracker's result instead of as truth
 };
 
+/// What of a box an export could not carry.
 enum class LossKind { rotation, heading, class_name, occlusion, ignore, score, velocity, id, clipped, rounded, other };
 
 /// Something an export could not carry.
@@ -90,6 +91,7 @@ struct LabelFormatInfo {
     bool tells_world = false;  ///< writes places on the earth or clock times where LabelFile::world knows them
 };
 
+/// All of them, in the order of sniffing.
 const std::vector<LabelFormatInfo>& labelFormats();
 
 /// What the names of files with labels look like, for dialogs: "*.csv *.xml".

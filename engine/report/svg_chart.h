@@ -36,6 +36,7 @@ struct ChartBar {
     double value = 0;
 };
 
+/// An SVG of curves, or of areas on top of each other, with axes and a legend.
 std::string curvesSvg(const CurveChart& chart, ChartSize size = {});
 /// Upright columns from `values` in [0, 1] with lines at the given shares.
 std::string sharesSvg(const std::vector<ChartBar>& bars, const std::vector<double>& lines, const std::string& label,

@@ -13,10 +13,12 @@
 /// axes. Presets fill it (scene_preset.h), SceneRenderer turns it into pictures and truth.
 namespace eyrie {
 
+/// What moves or stands in a scene.
 enum class ObjectKind { car, van, truck, bus, motorcycle, bicycle, person };
 
 /// The class word of box files: car, van, truck, bus, motorcycle, bicycle, person.
 const char* nameOf(ObjectKind kind);
+/// Car, van, truck or bus.
 bool isVehicle(ObjectKind kind);
 
 /// The outside of a vehicle or person.
@@ -56,6 +58,7 @@ struct GroundPatch {
     Surface surface;
 };
 
+/// The roof of a house.
 enum class RoofKind { flat, gable };
 
 /// A house on the ground, metres.

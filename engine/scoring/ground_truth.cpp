@@ -44,10 +44,7 @@ LabelFile readAs(const std::string& format, const GroundTruthSource& source, std
 
 GroundTruth labelsOfProject(ProjectFile& project, const RunRecord& run) {
     const AnnotationSet labels = readAnnotations(project, run.sequence.id);
-    if (labels.objects.empty()) {
-        throw Error(ErrorKind::project, project.path().string() + ": nobody has labelled " + run.sequence.path +
-                                            " yet. Draw or import labels, or choose a file of ground truth.");
-    }
+    if (labels.objects.empty()) throw NothingLabelled(project.path(), run.sequence.path);
     GroundTruthOptions options;
     options.last_frame = std::max(0, run.sequence.frame_count - 1);
     options.image = run.sequence.size;
@@ -56,6 +53,10 @@ GroundTruth labelsOfProject(ProjectFile& project, const RunRecord& run) {
 }
 
 }  // namespace
+
+NothingLabelled::NothingLabelled(const std::filesystem::path& project, const std::string& video)
+    : Error(ErrorKind::project, project.string() + ": nobody has labelled " + video +
+                                    " yet. Draw or import labels, or choose a file of ground truth.") {}
 
 GroundTruth readGroundTruth(const GroundTruthSource& source, std::optional<cv::Size> image_size) {
     const LabelFile labels = readAs(formatOfTruth(source.file), source, image_size);

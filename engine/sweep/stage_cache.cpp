@@ -12,7 +12,7 @@
 
 #include "chain/chain.h"
 #include "chain/recording/classified_vehicles.h"
-#include "chain/scale_estimation.h"
+#include "chain/scale/scale_estimation.h"
 #include "core/error.h"
 #include "core/labels/result_box.h"
 #include "detection/detector_factory.h"
@@ -266,7 +266,8 @@ std::shared_ptr<const StageCache::Detected> StageCache::detected(const Point& po
             const auto found = this->found(point, motion);
             count(ChainStage::removal);
             detected->frames.resize(motion.size());
-            const auto classifier = classifierOfBoxes(point.options, point.scale);
+            const auto classifier =
+                classifierOfBoxes(*makeDetector(point.options.detection, point.scale), point.options, point.scale);
             forFrames(point.stop, [&](std::size_t i, ClipFrames::Reader& reader) {
                 detected->frames[i] = removed((*found)[i], motion[i], point.options, point.scale);
                 if (classifier && classifier->looksAt(motion[i].frame))

@@ -16,6 +16,7 @@ struct MovingState {
     cv::Point2d velocity{0, 0};  ///< px/frame
 };
 
+/// The box and the velocity of a track's state.
 inline MovingState movingOf(const PathState& state) {
     return {state.box, state.velocity};
 }

@@ -1,4 +1,4 @@
-#include "chain/scale_estimation.h"
+#include "chain/scale/scale_estimation.h"
 
 #include <gtest/gtest.h>
 

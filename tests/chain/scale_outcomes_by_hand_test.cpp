@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "chain/scale_outcomes.h"
+#include "chain/scale/scale_outcomes.h"
 
 /// Which scale outcomes tell, worked out by hand.
 namespace eyrie::scale_outcomes_by_hand_test {

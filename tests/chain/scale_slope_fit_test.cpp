@@ -1,11 +1,11 @@
-#include "chain/scale_slope_fit.h"
+#include "chain/scale/scale_slope_fit.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "chain/slope_estimation.h"
+#include "chain/scale/slope_estimation.h"
 #include "support/moving_scene.h"
 #include "support/shared_data.h"
 

@@ -5,10 +5,12 @@
 
 #include <type_traits>
 
-#include "core/error.h"
+#include "support/error_message.h"
 
 namespace eyrie::parameter_test {
 namespace {
+
+using test::messageOf;
 
 enum class Method { clusters, gradient };
 
@@ -41,15 +43,6 @@ static_assert(!DeclaresByItself<ParameterVisitor>);
 static_assert(DeclaresByItself<const ParameterDeclarer>);
 static_assert(!std::is_constructible_v<ParameterDeclarer, ParameterVisitor&>);
 static_assert(std::is_constructible_v<ParameterDeclarer, ParameterVisitor&, ChainStage>);
-
-std::string messageOf(const std::function<void()>& act) {
-    try {
-        act();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no error";
-}
 
 }  // namespace
 

@@ -94,6 +94,13 @@ TEST(TrackClass, WordsOfFilesBelongToClasses) {
         EXPECT_EQ(trackClassOf(wordOf(one)), one);
 }
 
+TEST(TrackClass, TheCommonestWordOfAClassBelongsToIt) {
+    EXPECT_STREQ(commonestWordOf(TrackClass::vehicle), "car");
+    EXPECT_STREQ(commonestWordOf(TrackClass::two_wheeler), "motorcycle");
+    for (const TrackClass one : {TrackClass::unknown, TrackClass::vehicle, TrackClass::two_wheeler, TrackClass::person})
+        EXPECT_EQ(trackClassOf(commonestWordOf(one)), one);
+}
+
 TEST(TrackClass, AllBoxesOfATrackGetTheClassOfItsMeans) {
     BoxesByFrame boxes;
     const auto add = [&](FrameIndex frame, std::optional<int> id, double length_m) {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/error.h"
+#include "detection/detector_factory.h"
 #include "detection/trained_window_model.h"
 
 namespace eyrie::box_classifier_test {
@@ -17,7 +17,7 @@ using test::kContractScale;
 BoxClassifier classifier(double frame_rate_hz = 25) {
     SceneScale scale = kContractScale;
     scale.frame_rate_hz = frame_rate_hz;
-    return makeBoxClassifier(drivenSceneWindow(), scale);
+    return {loadModel(drivenSceneWindow().model), drivenSceneWindow(), scale};
 }
 
 OrientedBox moved(OrientedBox box, cv::Point2d by) {
@@ -102,10 +102,20 @@ TEST(BoxClassifier, LooksAtKeptDetectionsSomeFourTimesASecond) {
     EXPECT_TRUE(std::isnan(detections[1].decision));
 }
 
-TEST(BoxClassifier, AModelThatIsNotThereIsSaid) {
-    SlidingWindowOptions options = drivenSceneWindow();
-    options.model = "no such file.eyriemodel";
-    EXPECT_THROW(makeBoxClassifier(options, kContractScale), Error);
+TEST(BoxClassifier, AsksTheModelOfTheDetectorThatOnlyThoseWithAClassifierHave) {
+    for (const DetectionMethod method : allDetectionMethods()) {
+        DetectionOptions options;
+        options.method = method;
+        options.sliding_window = drivenSceneWindow();
+        const std::unique_ptr<Detector> detector = makeDetector(options, kContractScale);
+        ASSERT_EQ(detector->model() != nullptr, looksThroughWindows(method)) << nameOf(method);
+        if (detector->model() == nullptr) continue;
+        const test::DrivenScene scene = drivenScene(0.4);
+        EXPECT_EQ(BoxClassifier(*detector->model(), options.sliding_window, kContractScale)
+                      .at(scene.frame.gray, scene.vehicle),
+                  classifier().at(scene.frame.gray, scene.vehicle))
+            << nameOf(method);
+    }
 }
 
 }  // namespace eyrie::box_classifier_test

@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <opencv2/core.hpp>
 
-#include "core/error.h"
 #include "detection/sliding_window/global_sliding_window.h"
 #include "detection/sliding_window/model_location.h"
 #include "detection/sliding_window/sliding_window_detector.h"
@@ -15,6 +13,7 @@
 #include "detection/trained_window_model.h"
 #include "imaging/upright_patch.h"
 #include "learning/classifiers/gentle_adaboost.h"
+#include "support/error_message.h"
 
 namespace eyrie::sliding_window_test {
 namespace {
@@ -22,16 +21,8 @@ namespace {
 using test::drivenScene;
 using test::drivenSceneWindow;
 using test::kContractScale;
+using test::messageOf;
 using test::roiOf;
-
-std::string messageOf(const std::function<void()>& act) {
-    try {
-        act();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no error";
-}
 
 }  // namespace
 

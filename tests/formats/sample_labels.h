@@ -3,9 +3,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "core/error.h"
 #include "core/geometry/angle.h"
 #include "formats/label_formats.h"
+#include "support/error_message.h"
 #include "support/temporary_folder.h"
 
 namespace eyrie::test {
@@ -56,17 +56,6 @@ inline LabelFile sampleLabels(bool turned = true) {
         labels.boxes[frame].push_back(truck);
     }
     return labels;
-}
-
-/// The message of the Error that reading gives, or "no error".
-template <class Read>
-std::string messageOf(const Read& read) {
-    try {
-        read();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no error";
 }
 
 }  // namespace eyrie::test

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "core/error.h"
 #include "io/live/live_stream.h"
 #include "io/video/frame_source.h"
 #include "io/video/video_writer.h"
+#include "support/error_message.h"
 
 /// Videos whose frames carry their own number as a row of black and white fields, which survives any compression: what
 /// a reader delivers can be checked without another reader.
@@ -64,19 +64,6 @@ inline std::string bytesOf(const std::filesystem::path& path) {
 
 inline void writeBytes(const std::filesystem::path& path, const std::string& bytes) {
     std::ofstream(path, std::ios::binary) << bytes;
-}
-
-/// The message of the Error that `action` throws, after checking its kind.
-template <class Action>
-std::string messageOf(ErrorKind kind, Action&& action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        EXPECT_EQ(error.kind(), kind) << error.what();
-        return error.what();
-    }
-    ADD_FAILURE() << "no error was thrown";
-    return {};
 }
 
 }  // namespace eyrie::test

@@ -137,6 +137,10 @@ INSTANTIATE_TEST_SUITE_P(Classifiers, EveryClassifier, testing::ValuesIn(allClas
 TEST(Classifier, namesAreKnown) {
     for (const ClassifierKind kind : allClassifiers()) EXPECT_EQ(classifierFromName(nameOf(kind)), kind);
     EXPECT_THROW(classifierFromName("boost"), Error);
+    std::set<std::string> titles;
+    for (const ClassifierKind kind : allClassifiers()) titles.insert(titleOf(kind));
+    EXPECT_EQ(titles.size(), allClassifiers().size()) << "people can tell them apart";
+    EXPECT_STREQ(titleOf(ClassifierKind::random_forest), "Random Forest");
 }
 
 TEST(GentleAdaBoost, oneTreeOnFourPointsIsTheOneOnPaper) {

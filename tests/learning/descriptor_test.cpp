@@ -52,6 +52,12 @@ TEST(Descriptor, hasTheDimensionsOfTheThesis) {
     EXPECT_THROW(descriptorFromName("hogg"), Error);
 }
 
+TEST(Descriptor, isCalledByNoAbbreviationOfTheCommandLineBeforePeople) {
+    std::set<std::string> titles;
+    for (const DescriptorKind kind : allDescriptors()) titles.insert(titleOf(kind));
+    EXPECT_EQ(titles, (std::set<std::string>{"moments", "DCT", "HOG", "channel features", "Multi-LBP"}));
+}
+
 TEST(Descriptor, isFiniteOnFlatAndExtremeWindows) {
     cv::Mat split(kWindowHeight, kWindowWidth, CV_8UC1, cv::Scalar(0));
     split.colRange(8, 16).setTo(255);

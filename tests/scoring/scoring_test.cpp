@@ -184,7 +184,7 @@ TEST_F(ScoringTest, aVideoThatNobodyLabelledSaysSo) {
     try {
         labels(run);
         FAIL();
-    } catch (const Error& error) {
+    } catch (const NothingLabelled& error) {
         EXPECT_EQ(error.kind(), ErrorKind::project);
         EXPECT_THAT(error.what(), HasSubstr("nobody has labelled /nowhere/clip.mp4 yet. Draw or import"));
     }

@@ -6,19 +6,20 @@
 #include <csignal>
 #include <fstream>
 
-#include "core/error.h"
 #include "store/health/file_check.h"
 #include "store/runs/result_writer.h"
 #include "store/runs/run_lock.h"
 #include "store/samples.h"
 #include "store/sweeps/sweep_store.h"
 #include "support/child.h"
+#include "support/error_message.h"
 #include "support/temporary_folder.h"
 
 /// Several programs, or several connections of one, on one project.
 namespace eyrie::shared_project_test {
 namespace {
 
+using test::messageOf;
 using testing::HasSubstr;
 
 class SharedProject : public testing::Test {
@@ -33,16 +34,6 @@ class SharedProject : public testing::Test {
                    if (fcntl(file, F_GETLK, &range) != 0) return 2;
                    return range.l_type == F_UNLCK ? 0 : 1;
                }) == 1;
-    }
-    static std::string errorOf(const std::function<void()>& action, ErrorKind kind) {
-        try {
-            action();
-        } catch (const Error& error) {
-            EXPECT_EQ(error.kind(), kind) << error.what();
-            return error.what();
-        }
-        ADD_FAILURE() << "expected an error";
-        return {};
     }
 
     test::TemporaryFolder folder_;
@@ -70,7 +61,7 @@ TEST_F(SharedProject, ARunIsAddedOnlyIfNobodyAddedOneMeanwhile) {
         if (!runs.empty()) throw Error(ErrorKind::project, "begun by " + runs.front().writer);
     };
     const ResultWriter first(path_, test::sampleRun(), {}, if_first);
-    EXPECT_THAT(errorOf([&] { ResultWriter(path_, test::sampleRun(), {}, if_first); }, ErrorKind::project),
+    EXPECT_THAT(messageOf(ErrorKind::project, [&] { ResultWriter(path_, test::sampleRun(), {}, if_first); }),
                 HasSubstr("begun by process " + std::to_string(getpid())))
         << "it is seen as soon as it is there, with who writes it";
     ProjectFile project = ProjectFile::open(path_, ProjectFile::Mode::read_only);
@@ -150,11 +141,11 @@ TEST_F(SharedProject, OfManyThatMakeItAtOnceAllWorkOnTheSame) {
 
 TEST_F(SharedProject, AFileThatAnotherMadeMeanwhileIsNotReplaced) {
     std::ofstream(path_) << "mine";
-    EXPECT_THAT(errorOf([&] { ProjectFile::create(path_); }, ErrorKind::output), HasSubstr("exists already"));
+    EXPECT_THAT(messageOf(ErrorKind::output, [&] { ProjectFile::create(path_); }), HasSubstr("exists already"));
     EXPECT_EQ(std::filesystem::file_size(path_), 4U);
     const auto link = folder_ / "dangling.eyrie";
     std::filesystem::create_symlink(folder_ / "nowhere", link);
-    EXPECT_THAT(errorOf([&] { ProjectFile::create(link); }, ErrorKind::output), HasSubstr("exists already"));
+    EXPECT_THAT(messageOf(ErrorKind::output, [&] { ProjectFile::create(link); }), HasSubstr("exists already"));
 }
 
 TEST_F(SharedProject, WritersSayThatTheirFileWasTakenAway) {
@@ -163,10 +154,10 @@ TEST_F(SharedProject, WritersSayThatTheirFileWasTakenAway) {
     writer.write(test::sampleFrame(0));
     const int sweep = SweepStore(project).add("", 1, "{}");
     std::filesystem::rename(path_, folder_ / "elsewhere.eyrie");
-    EXPECT_THAT(errorOf([&] { writer.write(test::sampleFrame(1)); }, ErrorKind::project), HasSubstr("moved"));
-    EXPECT_THAT(errorOf([&] { SweepStore(project).addPoint(sweep, {}); }, ErrorKind::project), HasSubstr("moved"));
+    EXPECT_THAT(messageOf(ErrorKind::project, [&] { writer.write(test::sampleFrame(1)); }), HasSubstr("moved"));
+    EXPECT_THAT(messageOf(ErrorKind::project, [&] { SweepStore(project).addPoint(sweep, {}); }), HasSubstr("moved"));
     ProjectFile::create(path_);
-    EXPECT_THAT(errorOf([&] { writer.write(test::sampleFrame(1)); }, ErrorKind::project), HasSubstr("replaced"));
+    EXPECT_THAT(messageOf(ErrorKind::project, [&] { writer.write(test::sampleFrame(1)); }), HasSubstr("replaced"));
 }
 
 TEST_F(SharedProject, ARunIsLiveWhileItsProgramLives) {
@@ -185,7 +176,7 @@ TEST_F(SharedProject, ARunIsLiveWhileItsProgramLives) {
     const RunRecord working = store.run(1).value();
     EXPECT_TRUE(working.live);
     EXPECT_THAT(working.writer, HasSubstr("process " + std::to_string(child)));
-    EXPECT_THAT(errorOf([&] { RunStore(project).remove(1); }, ErrorKind::project), HasSubstr(working.writer));
+    EXPECT_THAT(messageOf(ErrorKind::project, [&] { RunStore(project).remove(1); }), HasSubstr(working.writer));
     kill(child, SIGKILL);
     waitpid(child, nullptr, 0);
     const RunRecord killed = store.run(1).value();
@@ -215,7 +206,7 @@ TEST_F(SharedProject, ARemovedRunComesBackUntilItIsPurged) {
     store.remove(second);
     store.purgeRemoved();
     EXPECT_FALSE(store.lastRemoved().has_value());
-    EXPECT_THAT(errorOf([&] { store.restore(second); }, ErrorKind::project), HasSubstr("has no run"));
+    EXPECT_THAT(messageOf(ErrorKind::project, [&] { store.restore(second); }), HasSubstr("has no run"));
     test::expectSame(*store.frameResult(first, 2), test::sampleFrame(2));
 }
 

@@ -4,7 +4,7 @@
 #include <mutex>
 #include <utility>
 
-#include "chain/scale_estimation.h"
+#include "chain/scale/scale_estimation.h"
 #include "metadata/metadata_scale.h"
 
 namespace eyrie::ui {

@@ -1,6 +1,7 @@
 #include "window/main_window.h"
 
 #include <QAbstractItemView>
+#include <QApplication>
 #include <QCloseEvent>
 #include <QDockWidget>
 #include <QDragEnterEvent>
@@ -16,30 +17,16 @@
 #include <QVBoxLayout>
 #include <utility>
 
-#include "canvas/layers/stages/image_stack_layer.h"
 #include "canvas/timeline/timeline_view.h"
 #include "canvas/video_view.h"
 #include "io/live/live_address.h"
 #include "label/canvas/label_timeline.h"
 #include "label/label_workspace.h"
-#include "review/correct/track_correcting.h"
-#include "review/earth/earth_dock.h"
-#include "review/earth/video_earth.h"
 #include "review/events/event_review.h"
 #include "review/events/events_dock.h"
-#include "review/events/events_panel.h"
-#include "review/inspector/inspector_panel.h"
-#include "review/inspector/track_inspector.h"
-#include "review/mosaic/mosaic_panel.h"
-#include "review/pictures/picture_column.h"
-#include "review/tracks/filter_chips.h"
-#include "review/tracks/tracks_panel.h"
 #include "tune/compare/live_preview.h"
 #include "tune/evaluate/evaluation_session.h"
 #include "tune/inspect/inspection.h"
-#include "tune/inspect/stacks_panel.h"
-#include "tune/inspect/stage_chips.h"
-#include "tune/parameters/parameter_binding.h"
 #include "widgets/layout/top_overlay.h"
 #include "widgets/message_bar.h"
 #include "widgets/wiring.h"
@@ -48,9 +35,12 @@
 #include "window/bars/run_bar.h"
 #include "window/bars/status_fields.h"
 #include "window/bars/transport_bar.h"
+#include "window/docks/clock_display.h"
 #include "window/docks/evaluation_docks.h"
 #include "window/docks/event_report.h"
+#include "window/docks/inspection_on_canvas.h"
 #include "window/docks/review_docks.h"
+#include "window/docks/tracks_and_events.h"
 #include "window/docks/tuning.h"
 #include "window/docks/watching_docks.h"
 #include "window/handover/run_handover.h"
@@ -130,7 +120,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     buildMenus();
     wireCanvas();
     wireSession();
-    wireInspection();
+    joinInspection({session_, *inspection_, *canvas_, overlays_, *review_, [this] { commands_->startRun(); }});
     restoreGeometry(settings_.geometry());
     setWindowState(windowState() & ~Qt::WindowFullScreen);  // a window that was closed so begins with all it has
     buildWorkspaces();
@@ -258,39 +248,13 @@ void MainWindow::buildWorkspaces() {
 void MainWindow::buildReview() {
     review_ = new ReviewDocks({session_, *inspection_, *measured_, *docks_, *actions_, overlays_, *guard_, *messages_});
     events_ = new EventsDock({session_, *canvas_, *timeline_, *docks_, *actions_, *messages_});
-    review_->setDoingsWanted([this] { events_->review().setWanted(); });
-    review_->setQueryChanged([this] {
-        TracksPanel& tracks = review_->tracks();
-        events_->panel().setQuery(tracks.query(), [&tracks] { tracks.chips().clear(); });
-    });
-    events_->correcting().setList(review_->tracks());
-    auto* pictures = new PictureColumn(review_->tracks(), TracksModel::picture_column, session_, [this](int track) {
-        const auto& run = events_->review().tracks();
-        return run ? placeOfTrack(*run, track) : std::nullopt;
-    });
-    whenAny(events_, pictures, &PictureColumn::refresh, &EventsDock::tracksRead);
-    docks_->watch(DockId::tracks, &events_->correcting(), [this](bool) { events_->correcting().enableActions(); });
-    connect(events_, &EventsDock::eventsShown, this, [this] {
-        const auto& found = events_->review().found();
-        review_->tracks().setDoings(found ? found->doings : nullptr);
-    });
+    joinTracksAndEvents(*review_, *events_, *docks_, session_);
 }
 
 void MainWindow::buildClock() {
-    VideoEarth& earth = watching_->earth().earth();
     auto* binding = new TimelineBinding(session_, *timeline_, review_->stageTimes(), this);
-    binding->setClock([&earth](FrameIndex frame) { return earth.clockText(frame); });
     status_ = new StatusFields(session_, *statusBar());
-    status_->setPlaces({[this, &earth](QPointF px) { return earth.placeOf(session_.shownFrame(), px); },
-                        [&earth] { return earth.origin(); }});
-    whenAny(&earth, status_, &StatusFields::showPlace, &VideoEarth::changed);
-    whenAny(&earth, this, &MainWindow::showClock, &VideoEarth::clockChanged);
-    showClock();
-    TrackInspector& inspector = review_->inspector().track();
-    inspector.setCourse([&earth](FrameIndex frame, const OrientedBox& box) {
-        return earth.courseOf(frame, {box.centre.x, box.centre.y}, box.heading);
-    });
-    whenAny(&earth, &inspector, &TrackInspector::showCourse, &VideoEarth::changed);
+    new ClockDisplay({session_, *timeline_, *binding, *status_, *review_, *events_, *watching_}, this);
 }
 
 void MainWindow::buildRunMessages() {
@@ -310,34 +274,6 @@ void MainWindow::buildEvaluation() {
     connect(evaluation_, &EvaluationDocks::whyRequested, tuning_, &Tuning::askWhyAbout);
     connect(&tuning_->preview(), &LivePreview::changed, evaluation_,
             [this] { evaluation_->setPreviewed(tuning_->preview().active()); });
-}
-
-void MainWindow::wireInspection() {
-    connect(canvas_, &VideoView::placeClicked, inspection_, [this](QPointF place, double margin) {
-        if (!session_.selectedTrack()) inspection_->choose(place, margin);
-    });
-    const auto show_stacks = [this] {
-        const ReplayView& view = *inspection_->view();
-        canvas_->setStacks(view.wish.frame, stackMarks(view));
-    };
-    whenChanged(*inspection_, canvas_,
-                {{InspectionChange::choice, [this] { canvas_->setInspectedArea(inspection_->area()); }},
-                 {InspectionChange::view, show_stacks}});
-    connect(&overlays_, &OverlaySettings::changed, inspection_,
-            [this] { inspection_->wantStackOverlay(overlays_.isVisible(ImageStackLayer::kKind)); });
-    review_->stacks().setCommands({
-        .show_place =
-            [this](QPointF place) {
-                canvas_->centreOn(place);
-                inspection_->choose(place);
-            },
-        .run_with_stacking =
-            [this] {
-                review_->parameters().adoptRunParameters();
-                review_->parameters().setValue("stacking.enabled", "true");
-                commands_->startRun();
-            },
-    });
 }
 
 void MainWindow::wireCanvas() {
@@ -370,19 +306,6 @@ void MainWindow::showVideo() {
     const auto& video = session_.video();
     canvas_->clear(video ? QSize(video->size.width, video->size.height) : QSize());
     stack_->setCurrentIndex(video ? 1 : 0);
-}
-
-void MainWindow::showClock() {
-    const VideoEarth& earth = watching_->earth().earth();
-    const ClockOfFrames clock = earth.clock();
-    status_->setClock(clock);
-    events_->setClock(clock);
-    review_->setClock(clock);
-    watching_->mosaic().setClock(clock);
-    if (clock.known())
-        timeline_->setClock([&earth](std::int64_t video_us) { return earth.utcAt(video_us); });
-    else
-        timeline_->setClock({});
 }
 
 void MainWindow::showPicture() {

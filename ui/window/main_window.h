@@ -90,10 +90,7 @@ class MainWindow : public QMainWindow {
     void wireCanvas();
     void wireSession();
     void showVideo();
-    /// Whatever shows times shows those of the day, where they are known.
-    void showClock();
     void showPicture();
-    void wireInspection();
     void enableActions();
     void updateTitle();
     void focusCanvas();

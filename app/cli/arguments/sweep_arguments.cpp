@@ -1,6 +1,6 @@
 #include "cli/arguments/sweep_arguments.h"
 
-#include "chain/scale_estimation.h"
+#include "chain/scale/scale_estimation.h"
 #include "cli/arguments/input.h"
 #include "cli/reports/run_report.h"
 #include "core/error.h"

@@ -40,8 +40,8 @@ int classifyPatches(const ClassifyArguments& arguments) {
         std::printf("%s\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
         return exit_ok;
     }
-    std::printf("model           %s + %s, trained %s\n", nameOf(model.descriptor->kind()),
-                nameOf(model.classifier->kind()),
+    std::printf("model           %s and %s, trained %s\n", titleOf(model.descriptor->kind()),
+                titleOf(model.classifier->kind()),
                 model.record.utc_time.empty() ? "at an unknown time" : model.record.utc_time.c_str());
     std::printf("patches         %d vehicles, %d others\n", result.vehicles, result.others);
     std::printf("AUC             %s\n", fractionText(result.area(), 5).c_str());

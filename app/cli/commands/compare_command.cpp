@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "chain/scale_estimation.h"
+#include "chain/scale/scale_estimation.h"
 #include "cli/arguments/earlier_state.h"
 #include "cli/arguments/evaluation_arguments.h"
 #include "cli/arguments/input.h"

@@ -110,7 +110,7 @@ void writeErrors(const EvaluateArguments& arguments, const Scoring& scoring, con
                                                        {truth, result.boxes, input, matches, options}));
 }
 
-/// Precision and recall over the score at the first T_ov.
+/// Precision and recall by score at the first T_ov.
 void writeScoreCurve(const EvaluateArguments& arguments, const Scoring& scoring, const Result& result) {
     EvaluationOptions options = scoring.options;
     if (!arguments.evaluation.overlaps.empty()) options.overlap = arguments.evaluation.overlaps.front();
@@ -185,7 +185,7 @@ void addEvaluateCommand(CLI::App& app, int& exit_code) {
                         "CSV file, with probable causes where a run is measured: the most frequent cause of a stretch, "
                         "detail and box of the middle frame that shows it");
     command->add_option("--score-curve", arguments->score_curve,
-                        "Write precision, recall and f-score at the first T_ov over the score that a box must have to "
+                        "Write precision, recall and f-score at the first T_ov by the score that a box must have to "
                         "this CSV file; of a run also for tracks that only their score (finishing.min_score) kept out");
     arguments->outputs.addTo(*command);
     addJson(*command, arguments->json);

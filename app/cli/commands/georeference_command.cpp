@@ -99,7 +99,7 @@ int georeference(const GeoreferenceArguments& arguments) {
 void addGeoreferenceCommand(CLI::App& app, int& exit_code) {
     const auto arguments = std::make_shared<GeoreferenceArguments>();
     CLI::App* command = app.add_subcommand(
-        "georeference", "Lay a video on the earth by points that a person found in it and on a map; lists them");
+        "georeference", "Place a video on the earth by points that a person found in it and on a map; lists them");
     command->add_option("--project", arguments->project, "Project with the video")->required();
     CLI::Option* points =
         command->add_option("--points", arguments->points,

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "chain/recording/run_resume.h"
-#include "chain/scale_estimation.h"
+#include "chain/scale/scale_estimation.h"
 #include "cli/arguments/earlier_state.h"
 #include "cli/arguments/input.h"
 #include "cli/arguments/output_arguments.h"

@@ -153,19 +153,24 @@ int run(const TrainArguments& arguments) {
         std::error_code unknown;
         const std::uintmax_t size = std::filesystem::file_size(arguments.out, unknown);
         std::printf(
-            "%s + %s, %d features, trained on %d windows of vehicles (with mirrored and varied ones) and %d others: "
+            "%s and %s, %d features, trained on %d windows of vehicles (with mirrored and varied ones) and %d others: "
             "%s, %.0f kB\n",
-            nameOf(options.descriptor), nameOf(options.classifier), model->descriptor->dimension(),
+            titleOf(options.descriptor), titleOf(options.classifier), model->descriptor->dimension(),
             model->record.vehicles, model->record.others, arguments.out.c_str(),
             unknown ? 0.0 : static_cast<double>(size) / 1000);
         return exit_ok;
     });
 }
 
+/// "One of dct (DCT), …": what may be written, and what it is.
 template <class Kinds>
 std::string namesOf(const Kinds& kinds) {
     std::string list;
-    for (const auto kind : kinds) list += (list.empty() ? "" : ", ") + std::string(nameOf(kind));
+    for (const auto kind : kinds) {
+        const std::string name = nameOf(kind);
+        const std::string title = titleOf(kind);
+        list += (list.empty() ? "One of " : ", ") + name + (title == name ? "" : " (" + title + ")");
+    }
     return list;
 }
 
@@ -174,10 +179,8 @@ std::string namesOf(const Kinds& kinds) {
 void addTrainCommand(CLI::App& app, int& exit_code) {
     const auto arguments = std::make_shared<TrainArguments>();
     CLI::App* command = app.add_subcommand("train", "Train a classifier of vehicles for the sliding window");
-    command->add_option("--descriptor", arguments->descriptor, "One of " + namesOf(allDescriptors()))
-        ->capture_default_str();
-    command->add_option("--classifier", arguments->classifier, "One of " + namesOf(allClassifiers()))
-        ->capture_default_str();
+    command->add_option("--descriptor", arguments->descriptor, namesOf(allDescriptors()))->capture_default_str();
+    command->add_option("--classifier", arguments->classifier, namesOf(allClassifiers()))->capture_default_str();
     command->add_option("--samples", arguments->samples,
                         "Folders with patch sheets: pos.png, neg.png, patches.csv; several separated by commas");
     command->add_option("--images", arguments->inputs,

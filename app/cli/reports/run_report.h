@@ -6,7 +6,7 @@
 
 #include "chain/chain_run.h"
 #include "chain/recording/run_facts.h"
-#include "chain/scale_estimation.h"
+#include "chain/scale/scale_estimation.h"
 #include "io/video/frame_source.h"
 #include "store/runs/run_store.h"
 

@@ -6,10 +6,12 @@
 /// What paths between keyframes are held to, and what is reckoned with their vectors.
 namespace eyrie::path_limits {
 
+/// Length of a vector, in its unit.
 inline double lengthOf(cv::Point2d v) {
     return std::hypot(v.x, v.y);
 }
 
+/// Its direction in radians, clockwise on screen from +x.
 inline double angleOf(cv::Point2d v) {
     return std::atan2(v.y, v.x);
 }

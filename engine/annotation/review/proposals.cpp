@@ -100,21 +100,6 @@ const LabelledObject* neighbourOf(const LabelledObject& proposed, const Annotati
     return joins.empty() ? nullptr : &labelled.objects.at(joins.front().object);
 }
 
-/// The class that most things of a kind have.
-std::string commonestOf(TrackClass kind) {
-    switch (kind) {
-        case TrackClass::vehicle:
-            return "car";
-        case TrackClass::two_wheeler:
-            return "motorcycle";
-        case TrackClass::person:
-            return "person";
-        case TrackClass::unknown:
-            break;
-    }
-    return {};
-}
-
 }  // namespace
 
 std::string classOfProposal(const Proposal& proposal, const AnnotationSet& labelled, const CameraMotion& camera,
@@ -125,7 +110,7 @@ std::string classOfProposal(const Proposal& proposal, const AnnotationSet& label
     // A class of one's own may be of any kind.
     const TrackClass kind = trackClassOf(drawn);
     const bool agrees = kind == TrackClass::unknown || kind == proposal.track_class;
-    return agrees || proposal.track_class == TrackClass::unknown ? drawn : commonestOf(proposal.track_class);
+    return agrees || proposal.track_class == TrackClass::unknown ? drawn : commonestWordOf(proposal.track_class);
 }
 
 std::vector<Proposal> proposeTracks(const std::vector<DenseTrack>& tracks, const AnnotationSet& labelled,

@@ -10,7 +10,7 @@
 #include "chain/live/read_ahead.h"
 #include "chain/recording/chain_state.h"
 #include "chain/recording/run_recorder.h"
-#include "chain/scale_estimation.h"
+#include "chain/scale/scale_estimation.h"
 #include "core/error.h"
 #include "core/project_name.h"
 #include "core/utc_time.h"

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "chain/chain_options.h"
+#include "detection/detector.h"
 #include "detection/sliding_window/box_classifier.h"
 
 namespace eyrie {
@@ -14,11 +15,13 @@ inline ClassifiedAt classifiedVehicles(const ChainOptions& options, ClassifiedAt
     return looksThroughWindows(options.detection.method) ? std::move(classified_at) : ClassifiedAt();
 }
 
-/// What gives detections their decision; nothing where no classifier takes part. Throws Error(input) when its model is
-/// missing or damaged.
-inline std::optional<BoxClassifier> classifierOfBoxes(const ChainOptions& options, const SceneScale& scale) {
-    if (!looksThroughWindows(options.detection.method)) return std::nullopt;
-    return makeBoxClassifier(options.detection.sliding_window, scale);
+/// What gives detections their decision: the classifier of the detector that the options name; nothing where none takes
+/// part.
+inline std::optional<BoxClassifier> classifierOfBoxes(const Detector& detector, const ChainOptions& options,
+                                                      const SceneScale& scale) {
+    const VehicleModel* model = detector.model();
+    if (model == nullptr) return std::nullopt;
+    return BoxClassifier(*model, options.detection.sliding_window, scale);
 }
 
 }  // namespace eyrie

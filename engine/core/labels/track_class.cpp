@@ -34,6 +34,20 @@ TrackClass trackClassOf(const std::string& object_class) {
     return object_class == wordOf(TrackClass::person) ? TrackClass::person : TrackClass::unknown;
 }
 
+const char* commonestWordOf(TrackClass track_class) {
+    switch (track_class) {
+        case TrackClass::unknown:
+            return "";
+        case TrackClass::vehicle:
+            return "car";
+        case TrackClass::two_wheeler:
+            return "motorcycle";
+        case TrackClass::person:
+            return "person";
+    }
+    return "";
+}
+
 void TrackClassOptions::describe(ParameterVisitor& v) {
     const ParameterDeclarer declare(v, ChainStage::finishing);
     declare.real("classes.person_size", person_size_m, 0, 100,

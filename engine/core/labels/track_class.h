@@ -20,6 +20,9 @@ const char* wordOf(TrackClass track_class);
 /// The class that the word of a file belongs to: car, truck, bus, van and vehicle; motorcycle, bicycle and two_wheeler;
 /// person. Every other word, and none, is unknown.
 TrackClass trackClassOf(const std::string& object_class);
+/// Among the words that trackClassOf() takes for this class, that of most things seen from above: what a person has to
+/// correct least. Nothing for unknown.
+const char* commonestWordOf(TrackClass track_class);
 
 /// By what size and speed on the ground a track is taken for something else than a vehicle.
 struct TrackClassOptions {

@@ -8,7 +8,6 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "detection/sliding_window/model_location.h"
 #include "imaging/upright_patch.h"
 #include "learning/models/window.h"
 
@@ -79,10 +78,6 @@ void BoxClassifier::judge(std::vector<Detection>& detections, const Frame& frame
             if (detection.rejection == Rejection::none) detection.decision = at(frame.gray, detection.box);
         }
     });
-}
-
-BoxClassifier makeBoxClassifier(const SlidingWindowOptions& options, const SceneScale& scale) {
-    return {loadModel(modelLocation(options.model)), options, scale};
 }
 
 }  // namespace eyrie

@@ -15,6 +15,7 @@ namespace eyrie {
 /// or seen from an unusual side from relief and noise. Immutable: may be used by several threads.
 class BoxClassifier {
  public:
+    /// `model`: that of the detector in use (Detector::model()).
     BoxClassifier(VehicleModel model, const SlidingWindowOptions& options, const SceneScale& scale);
 
     /// The highest decision value of a window that is laid over the box in a CV_8UC1 image, 0 being the classifier's
@@ -33,8 +34,5 @@ class BoxClassifier {
     SceneScale scale_;
     FrameIndex every_;  ///< frames, ≥ 1
 };
-
-/// With the model that the options name. Throws Error(input) when it is missing or damaged.
-BoxClassifier makeBoxClassifier(const SlidingWindowOptions& options, const SceneScale& scale);
 
 }  // namespace eyrie

@@ -23,6 +23,7 @@ class SlidingWindowDetector : public Detector {
     /// Every peak of the decision function, however low.
     std::unique_ptr<const PreparedArea> prepare(const MotionRoi& roi) const override;
     std::vector<Detection> decide(const MotionRoi& roi, const PreparedArea* prepared) const override;
+    const VehicleModel* model() const override { return &scanner_.model(); }
 
  private:
     bool accepted(const MotionRoi& roi, const WindowHypothesis& found) const;

@@ -52,11 +52,12 @@ void SlidingWindowOptions::describe(ParameterVisitor& visitor) {
          "Path of the model file that decides; empty: the model that comes with Eyrie; thesis: the one trained "
          "as the thesis says.",
          "Teutsch §5.4.3"});
-    choosing.words("sliding_window.descriptor", descriptor,
-                   {"",
-                    "Descriptor that the model must have been trained for, so that no other is used by mistake; empty: "
-                    "any.",
-                    ""});
+    choosing.words(
+        "sliding_window.descriptor", descriptor,
+        {"",
+         "Descriptor that the model must have been trained for, so that no other is used by mistake: moments, "
+         "dct, hog, chnftrs (channel features) or multi_lbp; empty: any.",
+         ""});
     declare.choice(
         "sliding_window.rescaling", rescaling, {"joint_11", "length_11", "length_3"},
         {"", "Scales that are searched: 11 of width and length together, 11 of the length, or 3 of the length.",

@@ -32,6 +32,7 @@ class WindowAndGradientDetector : public Detector {
 
     std::unique_ptr<const PreparedArea> prepare(const MotionRoi& roi) const override;
     std::vector<Detection> decide(const MotionRoi& roi, const PreparedArea* prepared) const override;
+    const VehicleModel* model() const override { return window_->model(); }
 
  private:
     std::vector<Detection> joined(const MotionRoi& roi, std::vector<Detection> found, std::vector<Detection> segments,

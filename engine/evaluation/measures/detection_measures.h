@@ -24,6 +24,7 @@ struct DetectionMeasures {
     double false_positives_per_frame = 0;
 };
 
+/// Counts and measures over the frames that were matched.
 DetectionMeasures detectionMeasures(const EvaluationInput& input, const std::vector<FrameMatch>& matches);
 
 }  // namespace eyrie

@@ -16,6 +16,7 @@ ReviewEdit addZones(const ReviewSet& set, const std::vector<Zone>& zones, const 
 /// Changes one zone. Under another name it keeps what was said about its events. Nothing where nothing changes.
 ReviewEdit changeZone(const ReviewSet& set, int id, const std::function<void(StoredZone&)>& change, const Judge& judge);
 
+/// One step for all of these; ids that are not there are passed over.
 ReviewEdit removeZones(const ReviewSet& set, const std::vector<int>& ids);
 
 /// "zone 1" ("line 1", "arrow 1"), or the next that no zone of the project has.

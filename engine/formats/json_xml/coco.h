@@ -14,6 +14,8 @@ namespace eyrie {
 /// videos unless options name one.
 LabelFile readCoco(const std::filesystem::path& path, const ImportOptions& options);
 
+/// Replaces the file in one step; what got lost goes into the report. Throws Error(output). KWCOCO has videos and
+/// tracks besides.
 void writeCoco(const LabelFile& labels, const std::filesystem::path& path, const ExportOptions& options,
                ExportReport& report);
 void writeKwcoco(const LabelFile& labels, const std::filesystem::path& path, const ExportOptions& options,

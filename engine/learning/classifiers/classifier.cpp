@@ -39,6 +39,24 @@ const char* nameOf(ClassifierKind kind) {
     throw Error(ErrorKind::internal, "unknown classifier");
 }
 
+const char* titleOf(ClassifierKind kind) {
+    switch (kind) {
+        case ClassifierKind::svm:
+            return "SVM";
+        case ClassifierKind::adaboost:
+            return "AdaBoost";
+        case ClassifierKind::random_forest:
+            return "Random Forest";
+        case ClassifierKind::random_naive_bayes:
+            return "Random Naïve Bayes";
+        case ClassifierKind::ica_random_naive_bayes:
+            return "Random Naïve Bayes after ICA";
+        case ClassifierKind::cc_ica_random_naive_bayes:
+            return "Random Naïve Bayes after class-conditional ICA";
+    }
+    throw Error(ErrorKind::internal, "unknown classifier");
+}
+
 ClassifierKind classifierFromName(const std::string& name) {
     std::string known;
     for (const ClassifierKind kind : allClassifiers()) {

@@ -27,6 +27,8 @@ enum class ClassifierKind {
 const std::vector<ClassifierKind>& allClassifiers();
 /// The word on the command line: svm, adaboost, rf, rnb, ica_rnb, cc_ica_rnb.
 const char* nameOf(ClassifierKind kind);
+/// What people call it: SVM, AdaBoost, Random Forest, Random Naïve Bayes, after ICA, after CC-ICA.
+const char* titleOf(ClassifierKind kind);
 /// Throws Error(parameter) naming the known ones.
 ClassifierKind classifierFromName(const std::string& name);
 

@@ -34,6 +34,22 @@ const char* nameOf(DescriptorKind kind) {
     throw Error(ErrorKind::internal, "unknown descriptor");
 }
 
+const char* titleOf(DescriptorKind kind) {
+    switch (kind) {
+        case DescriptorKind::moments:
+            return "moments";
+        case DescriptorKind::dct:
+            return "DCT";
+        case DescriptorKind::hog:
+            return "HOG";
+        case DescriptorKind::channel_features:
+            return "channel features";
+        case DescriptorKind::multi_lbp:
+            return "Multi-LBP";
+    }
+    throw Error(ErrorKind::internal, "unknown descriptor");
+}
+
 DescriptorKind descriptorFromName(const std::string& name) {
     std::string known;
     for (const DescriptorKind kind : allDescriptors()) {

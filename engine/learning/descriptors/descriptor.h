@@ -16,6 +16,8 @@ enum class DescriptorKind { moments = 0, dct = 1, hog = 2, channel_features = 3,
 const std::vector<DescriptorKind>& allDescriptors();
 /// The word on the command line: moments, dct, hog, chnftrs, multi_lbp.
 const char* nameOf(DescriptorKind kind);
+/// What people call it: moments, DCT, HOG, channel features, Multi-LBP.
+const char* titleOf(DescriptorKind kind);
 /// Throws Error(parameter) naming the known ones.
 DescriptorKind descriptorFromName(const std::string& name);
 

@@ -10,6 +10,7 @@ struct PictureDifference {
     double worst_tile = 0;  ///< the largest mean absolute difference of any 16×16 tile
 };
 
+/// Of two pictures of one size.
 PictureDifference difference(const PaddedPicture& a, const PaddedPicture& b);
 
 /// Tells a repeated picture from a camera that stands still: noise changes between real exposures, and a repeated

@@ -13,6 +13,7 @@ namespace eyrie {
 /// red, tracks green with id and trail (the thesis' colours). Small videos are enlarged so that labels can be read.
 class Annotator {
  public:
+    /// What is drawn: all that the chain found, or its tracks alone.
     enum class Parts { all, tracks };
     explicit Annotator(Parts parts = Parts::all) : parts_(parts) {}
     /// How far trails go back.

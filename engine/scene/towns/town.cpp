@@ -83,25 +83,34 @@ double Town::stopLineAt(const Crossing& crossing, int street, bool forward) cons
     return forward ? s - half : s + half;
 }
 
+cv::Point2d Town::randomPlace() {
+    cv::Point2d place;
+    place.x = area_.x + random_.uniform() * area_.width;
+    place.y = area_.y + random_.uniform() * area_.height;
+    return place;
+}
+
+cv::Point2d Town::alongNearestStreet(cv::Point2d place) const {
+    cv::Point2d direction(1, 0);
+    double best = 1e9;
+    for (const Street& street : streets_) {
+        const double s = street.path.nearest(place);
+        const cv::Point2d offset = place - street.path.position(s);
+        const double distance = std::sqrt(offset.dot(offset));
+        if (distance < best) {
+            best = distance;
+            direction = street.path.direction(s);
+        }
+    }
+    return direction;
+}
+
 void Town::layLand() {
     // Plots of different ground behind the streets.
     const int plots = static_cast<int>(area_.width * area_.height / 900);
     for (int i = 0; i < plots; ++i) {
-        cv::Point2d centre;
-        centre.x = area_.x + random_.uniform() * area_.width;
-        centre.y = area_.y + random_.uniform() * area_.height;
-        // Plots stand square to the nearest street.
-        cv::Point2d direction(1, 0);
-        double best = 1e9;
-        for (const Street& street : streets_) {
-            const double s = street.path.nearest(centre);
-            const cv::Point2d offset = centre - street.path.position(s);
-            const double distance = std::sqrt(offset.dot(offset));
-            if (distance < best) {
-                best = distance;
-                direction = street.path.direction(s);
-            }
-        }
+        const cv::Point2d centre = randomPlace();
+        const cv::Point2d direction = alongNearestStreet(centre);
         Surface surface;
         const double draw = std::max(style_.bare_ground, random_.uniform());
         surface.material = draw < 0.42   ? Material::grass

@@ -89,6 +89,10 @@ class Town {
     void carPark(cv::Point2d centre, cv::Point2d direction, double length, double width);
     bool isFree(const OrientedBox& footprint, double clearance) const;
     bool nearStreet(cv::Point2d point, double clearance) const;
+    /// A place anywhere in the town. Draws twice.
+    cv::Point2d randomPlace();
+    /// Which way the street runs that is nearest to a place: what lies there stands square to it.
+    cv::Point2d alongNearestStreet(cv::Point2d place) const;
     void addBuilding(cv::Point2d centre, cv::Point2d direction, double length, double width, double height,
                      double gables = 0.4);
     void addTree(cv::Point2d position, double height, double radius);

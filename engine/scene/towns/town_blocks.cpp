@@ -89,19 +89,8 @@ void Town::buildFrontage(int index) {
 void Town::buildYards() {
     const int tries = static_cast<int>(area_.width * area_.height / style_.m2_per_try);
     for (int i = 0; i < tries; ++i) {
-        cv::Point2d centre;
-        centre.x = area_.x + random_.uniform() * area_.width;
-        centre.y = area_.y + random_.uniform() * area_.height;
-        cv::Point2d direction(1, 0);
-        double best = 1e9;
-        for (const Street& street : streets_) {
-            const double s = street.path.nearest(centre);
-            const cv::Point2d offset = centre - street.path.position(s);
-            if (std::sqrt(offset.dot(offset)) < best) {
-                best = std::sqrt(offset.dot(offset));
-                direction = street.path.direction(s);
-            }
-        }
+        const cv::Point2d centre = randomPlace();
+        const cv::Point2d direction = alongNearestStreet(centre);
         const double draw = random_.uniform();
         const bool park = draw < style_.car_parks;
         const double built_share = style_.car_parks + style_.yard_buildings;

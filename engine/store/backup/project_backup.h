@@ -19,10 +19,12 @@ namespace eyrie {
 inline constexpr int kBackupsKept = 5;
 
 using UtcTime = std::chrono::sys_seconds;
+/// The present time, whole seconds.
 UtcTime utcNow();
 /// "2026-11-21 08:00:00 UTC".
 std::string inWords(UtcTime time);
 
+/// Why a state was kept.
 enum class BackupReason { daily, before_migration, before_restoring };
 /// For people: "first use that day".
 const char* nameOf(BackupReason reason);

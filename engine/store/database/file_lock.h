@@ -12,6 +12,7 @@ namespace eyrie {
 /// nothing.
 class FileLock {
  public:
+    /// Impossible: the file cannot be made, or its file system knows no locks.
     enum class Outcome { taken, held, impossible };
     struct Attempt;
 

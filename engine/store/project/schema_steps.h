@@ -5,7 +5,7 @@ class Database;
 }
 
 /// The steps by which the tables of a project file grew, in their order (schema.h); each is run once in a file's life
-/// and never changed once released.
+/// and never changed once released. What a step is for is said where it is written.
 namespace eyrie::schema {
 
 void addRuns(SQLite::Database& database);

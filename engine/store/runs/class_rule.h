@@ -17,6 +17,7 @@ struct ClassRule {
     }
 };
 
+/// By the scale and the parameters that the run is stored with; the defaults for what an older one lacks.
 inline ClassRule classRuleOf(const RunStore& store, int run_id) {
     ClassRule rule;
     const std::optional<RunRecord> run = store.run(run_id);

@@ -20,7 +20,9 @@
 
 namespace eyrie {
 
+/// Stopped by a person; failed with a reason. Running, too, is a run whose program was killed (run_lock.h).
 enum class RunState { running, finished, stopped, failed };
+/// The word for it, in lists and tables.
 const char* nameOf(RunState state);
 
 /// The video a run worked on.

@@ -19,6 +19,7 @@ struct SweepFigures {
     std::optional<double> at(const std::string& key) const;
 };
 
+/// Of one sequence, `clip` in the plan, what listMeasures() tells of its tracks or of its detections.
 SweepFigures figuresOf(const Measures& measures, int clip, bool tracks);
 
 /// As text for files (JSON) and back. Throws Error(project) naming `where`.

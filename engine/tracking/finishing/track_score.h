@@ -19,6 +19,7 @@ struct TrackTally {
 /// The evidence with its score. `motion`: nothing where it is not known.
 TrackEvidence evidenceOf(const TrackTally& tally, const std::optional<FlowComparison>& motion, double frame_rate_hz);
 
+/// Of a whole track, whose motion is compared with that of the ground under it.
 TrackEvidence evidenceOf(const TrackPath& path, const TrackLooks& looks, const GroundMotion& ground,
                          const SceneScale& scale);
 

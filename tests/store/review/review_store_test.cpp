@@ -3,18 +3,19 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 
-#include "core/error.h"
 #include "store/following.h"
 #include "store/health/project_check.h"
 #include "store/labels/annotation_store.h"
 #include "store/review/packed_review.h"
 #include "store/review/review_samples.h"
 #include "store/samples.h"
+#include "support/error_message.h"
 #include "support/temporary_folder.h"
 
 namespace eyrie::review_store_test {
 namespace {
 
+using test::messageOf;
 using testing::HasSubstr;
 
 class ReviewStoreTest : public testing::Test {
@@ -23,16 +24,6 @@ class ReviewStoreTest : public testing::Test {
     void tamper(const std::string& command) {
         SQLite::Database database(path_.string(), SQLite::OPEN_READWRITE);
         database.exec(command);
-    }
-    static std::string errorOf(const std::function<void()>& action, ErrorKind kind) {
-        try {
-            action();
-        } catch (const Error& error) {
-            EXPECT_EQ(error.kind(), kind) << error.what();
-            return error.what();
-        }
-        ADD_FAILURE() << "expected an error";
-        return {};
     }
 
     test::TemporaryFolder folder_;
@@ -191,7 +182,7 @@ TEST_F(ReviewStoreTest, ASecondProgramReadsCorrectionsAndMayNotMakeAny) {
     EXPECT_TRUE(test::follows(second, path_));
     EXPECT_EQ(second.review().corrections.at(1), test::sampleCorrection(1));
     EXPECT_FALSE(test::follows(second, path_));
-    errorOf([&] { second.apply(test::sampleCorrecting(2)); }, ErrorKind::output);
+    messageOf(ErrorKind::output, [&] { second.apply(test::sampleCorrecting(2)); });
     store.undo();
     EXPECT_TRUE(test::follows(second, path_));
     EXPECT_TRUE(second.review().corrections.empty());
@@ -202,7 +193,7 @@ TEST_F(ReviewStoreTest, CorrectionsThatCannotBeAreRefusedAndChangeNothing) {
     const auto refused = [&](int like, const std::function<void(TrackCorrection&)>& change) {
         ReviewEdit edit = test::sampleCorrecting(like);
         change(*edit.corrections.front().after);
-        errorOf([&] { store.apply(edit); }, ErrorKind::internal);
+        messageOf(ErrorKind::internal, [&] { store.apply(edit); });
         EXPECT_TRUE(store.review().corrections.empty());
     };
     for (const int like : {3, 4}) {  // rejecting, adding
@@ -257,7 +248,7 @@ TEST_F(ReviewStoreTest, ZonesThatCannotBeAreRefusedInWords) {
     const auto refusal = [&](const std::function<void(StoredZone&)>& change) {
         StoredZone zone = test::sampleZone(2);
         change(zone);
-        return errorOf([&] { store.apply({"x", {}, {}, {{std::nullopt, zone}}}); }, ErrorKind::parameter);
+        return messageOf(ErrorKind::parameter, [&] { store.apply({"x", {}, {}, {{std::nullopt, zone}}}); });
     };
     EXPECT_THAT(refusal([](StoredZone& z) { z.zone.name = "yard 1"; }), HasSubstr("a zone \"yard 1\" already"));
     EXPECT_THAT(refusal([](StoredZone& z) { z.zone.name.clear(); }), HasSubstr("needs a name"));
@@ -302,13 +293,13 @@ TEST_F(ReviewStoreTest, WhatCannotBeIsRefusedAndNothingChanges) {
         change(verdict);
         return ReviewEdit{"x", {{std::nullopt, verdict}}, {}};
     };
-    errorOf([&] { store.apply(test::sampleJudging(1)); }, ErrorKind::internal);
-    errorOf([&] { store.apply({"x", {{test::sampleVerdict(7), std::nullopt}}, {}}); }, ErrorKind::internal);
-    errorOf([&] { store.apply(with([](Verdict& v) { v.subject.place.x = std::nan(""); })); }, ErrorKind::internal);
-    errorOf([&] { store.apply(with([](Verdict& v) { v.subject.last_frame = 3; })); }, ErrorKind::internal);
-    errorOf([&] { store.apply(with([](Verdict& v) { v.tags = {"a,b"}; })); }, ErrorKind::parameter);
+    messageOf(ErrorKind::internal, [&] { store.apply(test::sampleJudging(1)); });
+    messageOf(ErrorKind::internal, [&] { store.apply({"x", {{test::sampleVerdict(7), std::nullopt}}, {}}); });
+    messageOf(ErrorKind::internal, [&] { store.apply(with([](Verdict& v) { v.subject.place.x = std::nan(""); })); });
+    messageOf(ErrorKind::internal, [&] { store.apply(with([](Verdict& v) { v.subject.last_frame = 3; })); });
+    messageOf(ErrorKind::parameter, [&] { store.apply(with([](Verdict& v) { v.tags = {"a,b"}; })); });
     EXPECT_THAT(
-        errorOf([&] { store.apply(with([](Verdict& v) { v.note.assign(70000, 'n'); })); }, ErrorKind::parameter),
+        messageOf(ErrorKind::parameter, [&] { store.apply(with([](Verdict& v) { v.note.assign(70000, 'n'); })); }),
         HasSubstr("too long"));
     EXPECT_EQ(store.version(), version);
     EXPECT_EQ(store.undoCount(), 1);
@@ -323,8 +314,8 @@ TEST_F(ReviewStoreTest, WhatCannotBeWrittenIsNeitherInTheFileNorInMemory) {
         SQLite::Database other(path_.string(), SQLite::OPEN_READWRITE);
         const SQLite::Transaction lock(other, SQLite::TransactionBehavior::EXCLUSIVE);
         project_.database().setBusyTimeout(10);
-        errorOf([&] { store.apply(test::sampleJudging(2)); }, ErrorKind::project);
-        errorOf([&] { store.undo(); }, ErrorKind::project);
+        messageOf(ErrorKind::project, [&] { store.apply(test::sampleJudging(2)); });
+        messageOf(ErrorKind::project, [&] { store.undo(); });
     }
     EXPECT_EQ(store.review().verdicts.size(), 1U);
     EXPECT_EQ(readReview(project_, 1).verdicts.size(), 1U);
@@ -340,7 +331,7 @@ TEST_F(ReviewStoreTest, ASecondWindowReadsAndTakesOverWhenTheFirstIsClosed) {
     EXPECT_FALSE(first->readOnly());
     EXPECT_TRUE(second.readOnly());
     EXPECT_THAT(second.readOnlyReason(), HasSubstr("is reviewing this project"));
-    errorOf([&] { second.apply(test::sampleJudging(9)); }, ErrorKind::output);
+    messageOf(ErrorKind::output, [&] { second.apply(test::sampleJudging(9)); });
     EXPECT_FALSE(test::follows(second, path_));
     first->apply(test::sampleJudging(1));
     EXPECT_TRUE(test::follows(second, path_));
@@ -380,7 +371,7 @@ TEST_F(ReviewStoreTest, VideosOfAProjectAreReviewedApart) {
     EXPECT_TRUE(store.review().verdicts.empty());
     EXPECT_FALSE(store.canUndo());
     EXPECT_EQ(store.newVerdictId(), 2);
-    errorOf([&] { store.apply(test::sampleJudging(1)); }, ErrorKind::internal);
+    messageOf(ErrorKind::internal, [&] { store.apply(test::sampleJudging(1)); });
     EXPECT_EQ(readReview(project_, 1).verdicts.size(), 1U) << "nothing is taken away from the other one";
 }
 
@@ -409,7 +400,7 @@ TEST_F(ReviewStoreTest, RowsThatNobodyWroteAreRefusedAndFoundByACheck) {
         database.exec("CREATE TEMP TABLE v AS SELECT * FROM verdict; CREATE TEMP TABLE b AS SELECT * FROM bookmark");
         database.exec("CREATE TEMP TABLE z AS SELECT * FROM zone");
         database.exec(command);
-        EXPECT_THAT(errorOf([&] { readReview(project_, 1); }, ErrorKind::project), HasSubstr(words)) << command;
+        EXPECT_THAT(messageOf(ErrorKind::project, [&] { readReview(project_, 1); }), HasSubstr(words)) << command;
         EXPECT_FALSE(checkProject(path_).healthy()) << command;
         database.exec(
             "DELETE FROM verdict; INSERT INTO verdict SELECT * FROM v; DELETE FROM bookmark; INSERT INTO "
@@ -421,10 +412,10 @@ TEST_F(ReviewStoreTest, RowsThatNobodyWroteAreRefusedAndFoundByACheck) {
 TEST_F(ReviewStoreTest, StepsThatDoNotFitAreRefusedAndFoundByACheck) {
     ReviewStore(project_, 1).apply(test::sampleJudging(1));
     tamper("UPDATE verdict SET note = 'another'");
-    EXPECT_THAT(errorOf([&] { ReviewStore(project_, 1).undo(); }, ErrorKind::project), HasSubstr("does not fit"));
+    EXPECT_THAT(messageOf(ErrorKind::project, [&] { ReviewStore(project_, 1).undo(); }), HasSubstr("does not fit"));
     EXPECT_FALSE(checkProject(path_).healthy());
     tamper("UPDATE review_step SET data = x'0102'");
-    EXPECT_THAT(errorOf([&] { ReviewStore(project_, 1).undo(); }, ErrorKind::project), HasSubstr("is broken"));
+    EXPECT_THAT(messageOf(ErrorKind::project, [&] { ReviewStore(project_, 1).undo(); }), HasSubstr("is broken"));
     EXPECT_FALSE(checkProject(path_).healthy());
 }
 

@@ -392,8 +392,8 @@ class TuningTest : public QObject {
         QSignalSpy asked(&dialog.training(), &LabelTraining::replacementNeeded);
         dialog.start();
         QVERIFY(asked.wait(kPatience_ms));
-        QVERIFY2(dialog.message().contains(QStringLiteral("a model of dct")) &&
-                     dialog.message().contains(QStringLiteral("by one of hog")),
+        QVERIFY2(dialog.message().contains(QStringLiteral("a model with DCT and Random Naïve Bayes")) &&
+                     dialog.message().contains(QStringLiteral("by one with HOG and Random")),
                  qPrintable(dialog.message()));
         dialog.start();
         dialog.training().cancel();

@@ -276,7 +276,7 @@ class LiveWindowTest : public QObject {
         QCOMPARE(liveStateText(status, 30), QStringLiteral("receiving"));
         QCOMPARE(liveLoadText(status), QStringLiteral("keeps pace"));
         QCOMPARE(liveRecordingText(status.load.facts), QStringLiteral("12.3 MB recorded"));
-        QCOMPARE(liveSpaceText(status.load.facts), QStringLiteral("38.0 GB are left on the disk."));
+        QCOMPARE(liveSpaceText(status.load.facts), QStringLiteral("38.0 GB left on the disk."));
         QVERIFY(signalOf(status) == Signal::good);
         status.behind_s = 1.5;
         status.lighter = true;

@@ -52,7 +52,7 @@ const std::vector<OverlayRow>& overlayTable() {
         // name, key with Alt, shown at first in review, label, tune, colour
         row<ZoneLayer>(QT_TRANSLATE_NOOP("Overlay", "&Zones and lines"), Qt::Key_Z, true, false, false,
                        paletteColour<&Colours::zone>),
-        row<RoiLayer>(QT_TRANSLATE_NOOP("Overlay", "Motion &ROIs"), Qt::Key_R, false, false, false,
+        row<RoiLayer>(QT_TRANSLATE_NOOP("Overlay", "Search a&reas"), Qt::Key_R, false, false, false,
                       paletteColour<&Colours::roi>),
         row<CornerLayer>(QT_TRANSLATE_NOOP("Overlay", "Stationary &corners"), Qt::Key_C, false, false, false,
                          paletteColour<&Colours::stationary_corner>),

@@ -10,6 +10,7 @@
 #include <algorithm>
 
 #include "review/earth/control_points_model.h"
+#include "widgets/tables/table_look.h"
 #include "widgets/tables/table_roles.h"
 #include "widgets/wiring.h"
 #include "workspace/window_actions.h"
@@ -34,16 +35,8 @@ ControlPointsPanel::ControlPointsPanel(ControlPointsModel* model, const WindowAc
     state_->setTextInteractionFlags(Qt::TextSelectableByMouse);
     table_->setModel(model_);
     table_->setAccessibleName(tr("Ground control points"));
-    table_->setSelectionBehavior(QAbstractItemView::SelectRows);
-    table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
+    lookAsList(*table_);
     table_->setEditTriggers(QAbstractItemView::EditKeyPressed);
-    table_->setShowGrid(false);
-    table_->setWordWrap(false);
-    table_->setTabKeyNavigation(false);
-    table_->verticalHeader()->hide();
-    table_->verticalHeader()->setSectionResizeMode(QHeaderView::Fixed);
-    table_->verticalHeader()->setDefaultSectionSize(table_->fontMetrics().height() + 6);
-    table_->horizontalHeader()->setHighlightSections(false);
     table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
     table_->horizontalHeader()->setSectionResizeMode(ControlPointsModel::place_column, QHeaderView::Stretch);
     table_->installEventFilter(this);

@@ -203,8 +203,8 @@ void ZoneReview::takeFrom(const QString& path, const std::vector<Zone>& zones) {
     if (!fresh || (!added && *fresh > 0)) return;  // why is told
     const QString text = zones.empty()            ? tr("%1 has no zones.")
                          : *fresh == 0            ? tr("All zones of %1 are here already.")
-                         : *fresh == zones.size() ? tr("Read the zones of %1.")
-                                                  : tr("Read the zones of %1 that were not here yet.");
+                         : *fresh == zones.size() ? tr("Imported the zones of %1.")
+                                                  : tr("Imported the zones of %1 that were not here yet.");
     parts_.messages.showTopic(kZonesTopic, MessageKind::info, text.arg(path));
 }
 

@@ -17,6 +17,7 @@
 #include "review/zones/zones_model.h"
 #include "widgets/display_text.h"
 #include "widgets/swatch.h"
+#include "widgets/tables/table_look.h"
 #include "widgets/tables/table_roles.h"
 #include "widgets/wiring.h"
 #include "workspace/window_actions.h"
@@ -47,16 +48,8 @@ ZonesPanel::ZonesPanel(ZonesModel* model, const WindowActions& actions, QWidget*
     hint_->setTextFormat(Qt::PlainText);
     table_->setModel(model_);
     table_->setAccessibleName(tr("Zones, lines and arrows"));
-    table_->setSelectionBehavior(QAbstractItemView::SelectRows);
-    table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
+    lookAsList(*table_);
     table_->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed);
-    table_->setShowGrid(false);
-    table_->setWordWrap(false);
-    table_->setTabKeyNavigation(false);
-    table_->verticalHeader()->hide();
-    table_->verticalHeader()->setSectionResizeMode(QHeaderView::Fixed);
-    table_->verticalHeader()->setDefaultSectionSize(table_->fontMetrics().height() + 6);
-    table_->horizontalHeader()->setHighlightSections(false);
     table_->horizontalHeader()->setSectionResizeMode(ZonesModel::name_column, QHeaderView::Stretch);
     table_->horizontalHeader()->setSectionResizeMode(ZonesModel::events_column, QHeaderView::ResizeToContents);
     table_->horizontalHeader()->setSectionResizeMode(ZonesModel::anchor_column, QHeaderView::ResizeToContents);

@@ -1,7 +1,6 @@
 #include "tune/compare/comparison_window.h"
 
 #include <QCheckBox>
-#include <QHeaderView>
 #include <QKeyEvent>
 #include <QLabel>
 #include <QSignalBlocker>
@@ -18,6 +17,7 @@
 #include "canvas/overlay_settings.h"
 #include "canvas/wipe_split.h"
 #include "tune/compare/comparison_header.h"
+#include "widgets/tables/table_look.h"
 #include "widgets/wiring.h"
 
 namespace eyrie::ui {
@@ -28,22 +28,6 @@ constexpr int kMostRows = 2000;
 constexpr double kCloseUp = 4;  ///< screen px per image px at most, when a difference is gone to
 constexpr int kRateWindow_ms = 1000;
 constexpr int kEditsSettle_ms = 250;  ///< after the last change of a parameter
-
-QTableWidget* differenceTable(const QStringList& columns) {
-    auto* made = new QTableWidget(0, static_cast<int>(columns.size()));
-    made->setHorizontalHeaderLabels(columns);
-    made->verticalHeader()->hide();
-    made->setSelectionBehavior(QAbstractItemView::SelectRows);
-    made->setSelectionMode(QAbstractItemView::SingleSelection);
-    made->setEditTriggers(QAbstractItemView::NoEditTriggers);
-    made->setAlternatingRowColors(true);
-    made->setShowGrid(false);
-    made->setWordWrap(false);
-    made->horizontalHeader()->setStretchLastSection(true);
-    made->horizontalHeader()->setHighlightSections(false);
-    made->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
-    return made;
-}
 
 QTableWidgetItem* number(double value, int row) {
     auto* item = new QTableWidgetItem;
@@ -167,8 +151,8 @@ QWidget* ComparisonWindow::buildTransport() {
 }
 
 QWidget* ComparisonWindow::buildLists() {
-    differences_ = differenceTable({tr("Size"), tr("Frames"), tr("What"), tr("A"), tr("B")});
-    parameters_ = differenceTable({tr("Parameter"), tr("A"), tr("B")});
+    differences_ = tableToRead({tr("Size"), tr("Frames"), tr("What"), tr("A"), tr("B")});
+    parameters_ = tableToRead({tr("Parameter"), tr("A"), tr("B")});
     detections_ = new QCheckBox(tr("Detections instead of tracks"));
     auto* page = new QWidget;
     auto* layout = new QVBoxLayout(page);

@@ -71,7 +71,7 @@ void PreviewBar::refresh() {
                     .arg(view->milliseconds, 0, 'f', 0);
         if (preview_.framesLeft() > 0) text += tr(" · tracks: %1 frames left").arg(preview_.framesLeft());
         if (view->previewed.approximate) text += tr(" · motion vectors recomputed, a run may differ slightly");
-        if (view->previewed.start == ChainStage::finishing) text += tr(" · shows in finished runs only");
+        if (view->previewed.start == ChainStage::finishing) text += tr(" · takes effect in finished runs only");
     } else {
         text += tr(" · computing…");
     }

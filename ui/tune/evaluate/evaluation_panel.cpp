@@ -114,9 +114,9 @@ QWidget* EvaluationPanel::buildResult() {
     counts_ = new LineChart;
     ratios_ = new LineChart;
     score_curve_ = new LineChart;
-    score_curve_->setToolTip(
-        tr("Precision over recall as the score that a track must have grows, from right to left. Tracks that the run "
-           "left out for their score are counted; the line is where its own threshold lies (finishing.min_score)."));
+    score_curve_->setToolTip(tr(
+        "Precision against recall as the score that a track must have grows, from right to left. Tracks that the run "
+        "left out for their score are counted; the line is where its own threshold lies (finishing.min_score)."));
     curve_failure_ = new QLabel;
     curve_failure_->setWordWrap(true);
     curve_failure_->hide();
@@ -292,7 +292,7 @@ void EvaluationPanel::askForScoreCurve() {
     };
     query_.ask(work, [this](const QString& message) {
         curve_of_.reset();  // so that it is tried again
-        curve_failure_->setText(tr("No curve over the score: %1").arg(message));
+        curve_failure_->setText(tr("No curve by score: %1").arg(message));
         curve_failure_->show();
     });
 }

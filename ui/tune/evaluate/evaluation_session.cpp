@@ -4,6 +4,7 @@
 #include <exception>
 
 #include "core/error.h"
+#include "scoring/ground_truth.h"
 #include "widgets/wiring.h"
 
 namespace eyrie::ui {
@@ -129,8 +130,15 @@ void EvaluationSession::refresh() {
     stale_ = false;
     setWorking(true);
     const auto work = [this, wish = request()](const BackgroundTask& task) {
-        const auto evaluation = evaluator_->evaluate(wish, task.stop());
-        if (evaluation) task.tell([this, evaluation] { adopt(evaluation, {}); });
+        try {
+            const auto evaluation = evaluator_->evaluate(wish, task.stop());
+            if (evaluation) task.tell([this, evaluation] { adopt(evaluation, {}); });
+        } catch (const NothingLabelled&) {
+            task.tell([this] {
+                adopt(nullptr, tr("Nobody has labelled this video yet. Draw or import labels (Ctrl+2), or choose a "
+                                  "file of ground truth."));
+            });
+        }
     };
     query_.ask(work, [this](const QString& obstacle) { adopt(nullptr, obstacle); });
 }

@@ -3,7 +3,6 @@
 #include <QComboBox>
 #include <QFileDialog>
 #include <QHBoxLayout>
-#include <QHeaderView>
 #include <QInputDialog>
 #include <QLabel>
 #include <QMessageBox>
@@ -14,6 +13,7 @@
 #include <QVBoxLayout>
 
 #include "tune/compare/live_preview.h"
+#include "widgets/tables/table_look.h"
 #include "widgets/wiring.h"
 
 namespace eyrie::ui {
@@ -27,21 +27,6 @@ QTableWidgetItem* presetCell(const QString& text) {
     return item;
 }
 
-QTableWidget* presetTable(const QStringList& columns) {
-    auto* made = new QTableWidget(0, static_cast<int>(columns.size()));
-    made->setHorizontalHeaderLabels(columns);
-    made->verticalHeader()->hide();
-    made->setSelectionBehavior(QAbstractItemView::SelectRows);
-    made->setSelectionMode(QAbstractItemView::SingleSelection);
-    made->setEditTriggers(QAbstractItemView::NoEditTriggers);
-    made->setAlternatingRowColors(true);
-    made->setShowGrid(false);
-    made->horizontalHeader()->setStretchLastSection(true);
-    made->horizontalHeader()->setHighlightSections(false);
-    made->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
-    return made;
-}
-
 QString text(const std::string& words) {
     return QString::fromStdString(words);
 }
@@ -52,10 +37,10 @@ PresetDialog::PresetDialog(PresetLibrary& presets, ChainOptions present, QWidget
     : QDialog(parent), presets_(presets), present_(std::move(present)) {
     setWindowTitle(tr("Presets"));
     resize(900, 520);
-    list_ = presetTable({tr("Preset"), tr("Stored in"), tr("Saved")});
+    list_ = tableToRead({tr("Preset"), tr("Stored in"), tr("Saved")});
     other_ = new QComboBox;
     other_->setAccessibleName(tr("Compare with"));
-    differences_ = presetTable({tr("Parameter"), tr("Preset"), tr("Compared with")});
+    differences_ = tableToRead({tr("Parameter"), tr("Preset"), tr("Compared with")});
     message_ = new QLabel;
     message_->setWordWrap(true);
     auto* right = new QWidget;

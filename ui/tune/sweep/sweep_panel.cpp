@@ -117,10 +117,11 @@ QWidget* SweepPanel::buildResult() {
     auto* choices = new QWidget(result);
     auto* second = new FlowLayout(choices);
     view_ = new QComboBox(result);
-    view_->addItems({tr("measure"), tr("precision, recall, f"), tr("precision over recall"), tr("recall over alarms")});
-    view_->setToolTip(
-        tr("What the chart shows. Recall over false alarms per frame stands for the ROC, as detection has no true "
-           "negatives."));
+    view_->addItems(
+        {tr("measure"), tr("precision, recall, f"), tr("precision against recall"), tr("recall against false alarms")});
+    view_->setToolTip(tr(
+        "What the chart shows. Recall against false alarms per frame stands in for the ROC, as detection has no true "
+        "negatives."));
     measure_ = new QComboBox(result);
     fillMeasures();
     of_ = new QComboBox(result);

@@ -90,11 +90,11 @@ QString whatIsReplaced(const TrainingWish& wish) {
         const ClassifierKind classifier = old.classifier->kind();
         if (descriptor == wish.options.descriptor && classifier == wish.options.classifier) return {};
         return QObject::tr(
-                   "%1 is a model of %2 + %3 and would be replaced by one of %4 + %5. Name another file, or press "
-                   "Train again to replace it.")
-            .arg(QString::fromStdString(wish.file.string()), QString::fromUtf8(nameOf(descriptor)),
-                 QString::fromUtf8(nameOf(classifier)), QString::fromUtf8(nameOf(wish.options.descriptor)),
-                 QString::fromUtf8(nameOf(wish.options.classifier)));
+                   "%1 is a model with %2 and %3 and would be replaced by one with %4 and %5. Name another file, or "
+                   "press Train again to replace it.")
+            .arg(QString::fromStdString(wish.file.string()), QString::fromUtf8(titleOf(descriptor)),
+                 QString::fromUtf8(titleOf(classifier)), QString::fromUtf8(titleOf(wish.options.descriptor)),
+                 QString::fromUtf8(titleOf(wish.options.classifier)));
     } catch (const Error&) {
         return QObject::tr(
                    "%1 is a model that cannot be read and would be replaced. Name another file, or press Train "

@@ -27,7 +27,7 @@ constexpr std::size_t kMostPoints = 1000;  ///< of a curve on screen
 template <class Kind>
 QComboBox* comboOf(const std::vector<Kind>& kinds) {
     auto* combo = new QComboBox;
-    for (const Kind kind : kinds) combo->addItem(QString::fromLatin1(nameOf(kind)), static_cast<int>(kind));
+    for (const Kind kind : kinds) combo->addItem(QString::fromUtf8(titleOf(kind)), static_cast<int>(kind));
     return combo;
 }
 
@@ -53,7 +53,7 @@ TrainingDialog::TrainingDialog(const std::filesystem::path& project, QWidget* pa
     resize(940, 560);
     chart_ = new SweepChart;
     message_ =
-        new QLabel(tr("The labelled vehicles of the projects are cut out and learned; whole sequences are held "
+        new QLabel(tr("The labelled vehicles of the projects are cut out and trained on; whole sequences are held "
                       "out, and the classifier is tested on them next to the one that comes with the program."));
     message_->setWordWrap(true);
     progress_ = new QProgressBar;
@@ -228,7 +228,7 @@ void TrainingDialog::showReport(const std::shared_ptr<const TrainingReport>& rep
     chart_->setData(std::move(curves));
     pages_->setCurrentWidget(chart_);
     message_->setText(
-        tr("Trained on %1; tested on %2. Area under the curve %3, of the shipped model %4. Written to %5.")
+        tr("Trained on %1; tested on %2. Area under the curve: %3, of the shipped model: %4. Written to %5.")
             .arg(report->samples, report->held_out)
             .arg(report->own.area, 0, 'f', 4)
             .arg(report->shipped.area, 0, 'f', 4)

@@ -19,6 +19,7 @@
 #include <algorithm>
 
 #include "widgets/empty_state.h"
+#include "widgets/tables/table_look.h"
 #include "widgets/tables/table_roles.h"
 #include "widgets/tables/table_text.h"
 #include "widgets/wiring.h"
@@ -93,23 +94,14 @@ void TablePanel::buildTable(std::optional<int> sort_column) {
     whenAny(proxy_, this, pause, &QAbstractItemModel::rowsAboutToBeRemoved, &QAbstractItemModel::modelAboutToBeReset);
     whenAny(proxy_, this, resume, &QAbstractItemModel::rowsRemoved, &QAbstractItemModel::modelReset);
     table_->setModel(proxy_);
-    table_->setSelectionBehavior(QAbstractItemView::SelectRows);
-    table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
+    lookAsList(*table_);
     table_->setSortingEnabled(true);
     table_->sortByColumn(sort_column.value_or(-1), Qt::AscendingOrder);
     table_->horizontalHeader()->setSortIndicatorClearable(!sort_column);
     table_->setAlternatingRowColors(true);
-    table_->setShowGrid(false);
-    table_->setWordWrap(false);
-    table_->setTabKeyNavigation(false);
     table_->setEditTriggers(QAbstractItemView::EditKeyPressed);
-    table_->verticalHeader()->hide();
-    // Rows of one height keep tables of thousands of tracks quick.
-    table_->verticalHeader()->setSectionResizeMode(QHeaderView::Fixed);
-    table_->verticalHeader()->setDefaultSectionSize(table_->fontMetrics().height() + 6);
     table_->horizontalHeader()->setSectionsMovable(true);
     table_->horizontalHeader()->setStretchLastSection(true);
-    table_->horizontalHeader()->setHighlightSections(false);
     table_->horizontalHeader()->setContextMenuPolicy(Qt::CustomContextMenu);
     table_->setContextMenuPolicy(Qt::CustomContextMenu);
     table_->installEventFilter(this);

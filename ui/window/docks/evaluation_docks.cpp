@@ -232,7 +232,7 @@ void EvaluationDocks::wantChips() {
 }
 
 QString EvaluationDocks::nothingEvaluatedText() {
-    return tr("Nothing was evaluated yet: open the Evaluation dock.");
+    return tr("Nothing has been evaluated yet: open the dock Evaluation.");
 }
 
 void EvaluationDocks::step(int direction) {

@@ -66,7 +66,7 @@ QString liveRecordingText(const LiveFacts& facts) {
 
 QString liveSpaceText(const LiveFacts& facts) {
     if (facts.free_bytes == 0) return {};
-    const QString left = tr("%1 are left on the disk.").arg(bytesText(facts.free_bytes));
+    const QString left = tr("%1 left on the disk.").arg(bytesText(facts.free_bytes));
     return isNearlyFull(facts) ? left + QLatin1Char(' ') + tr("Watching ends before the disk is full.") : left;
 }
 

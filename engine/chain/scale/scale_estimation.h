@@ -6,7 +6,7 @@
 #include <string>
 
 #include "chain/recording/run_recorder.h"
-#include "chain/scale_outcomes.h"
+#include "chain/scale/scale_outcomes.h"
 #include "core/values/scale_basis.h"
 #include "io/video/frame_source.h"
 #include "metadata/metadata_scale.h"

@@ -1,4 +1,4 @@
-#include "chain/slope_estimation.h"
+#include "chain/scale/slope_estimation.h"
 
 #include <algorithm>
 #include <array>
@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "chain/chain.h"
-#include "chain/look_progress.h"
-#include "chain/scale_slope_fit.h"
+#include "chain/scale/look_progress.h"
+#include "chain/scale/scale_slope_fit.h"
 #include "core/error.h"
 
 namespace eyrie {

@@ -1,4 +1,4 @@
-#include "chain/scale_estimation.h"
+#include "chain/scale/scale_estimation.h"
 
 #include <algorithm>
 #include <atomic>
@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "chain/chain.h"
-#include "chain/look_progress.h"
-#include "chain/scale_outcomes.h"
-#include "chain/slope_estimation.h"
+#include "chain/scale/look_progress.h"
+#include "chain/scale/scale_outcomes.h"
+#include "chain/scale/slope_estimation.h"
 #include "core/error.h"
 #include "core/robust_statistics.h"
 #include "detection/detector_factory.h"

@@ -1,4 +1,4 @@
-#include "chain/scale_slope_fit.h"
+#include "chain/scale/scale_slope_fit.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <stop_token>
 
-#include "chain/scale_estimation.h"
+#include "chain/scale/scale_estimation.h"
 
 namespace eyrie {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "chain/scale_estimation.h"
+#include "chain/scale/scale_estimation.h"
 
 namespace eyrie {
 

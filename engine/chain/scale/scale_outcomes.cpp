@@ -1,4 +1,4 @@
-#include "chain/scale_outcomes.h"
+#include "chain/scale/scale_outcomes.h"
 
 #include <algorithm>
 #include <cmath>
