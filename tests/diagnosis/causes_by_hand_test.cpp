@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <opencv2/core.hpp>
 
 #include "diagnosis/error_cause.h"
 #include "evaluation/evaluation_boxes.h"
