@@ -199,8 +199,4 @@ LabelFile labelsOf(const AnnotationSet& annotations, const SequenceRecord& seque
     return collected(labelStreamOf(annotations, sequence, camera));
 }
 
-LabelFile labelsOf(const RunStore& store, const RunRecord& run, bool detections) {
-    return collected(labelStreamOf(store, run, detections));
-}
-
 }  // namespace eyrie

@@ -19,11 +19,9 @@ CameraMotion cameraMotionOf(const RunStore& store, int sequence_id);
 /// Labels of a video as a file would have them: objects frame by frame where they are in the image, ignore regions as
 /// ignored boxes without id.
 LabelFile labelsOf(const AnnotationSet& annotations, const SequenceRecord& sequence, const CameraMotion& camera);
-/// Tracks of a run, or its detections.
-LabelFile labelsOf(const RunStore& store, const RunRecord& run, bool detections);
 
-/// The same frame by frame. `annotations`, `camera` and `store` must outlive the result; of a run that may be written
-/// meanwhile a Snapshot is to be held.
+/// The same frame by frame, and tracks of a run, or its detections. `annotations`, `camera` and `store` must outlive
+/// the result; of a run that may be written meanwhile a Snapshot is to be held.
 LabelStream labelStreamOf(const AnnotationSet& annotations, const SequenceRecord& sequence, const CameraMotion& camera);
 LabelStream labelStreamOf(const RunStore& store, const RunRecord& run, bool detections);
 /// Tracks of a run as people corrected them; notes say what they did.

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <string>
 #include <tuple>
+#include <vector>
 
 #include "core/error.h"
 
@@ -142,6 +144,103 @@ TEST(ChainOptions, theThesisPresetLeavesNoNumberOfOursInForce) {
     }
     EXPECT_TRUE(open.empty()) << *open.begin() << " is no such parameter";
     EXPECT_TRUE(nothing.empty()) << nothing.begin()->first << " is no such parameter";
+}
+
+/// What the text says of parameters that name their place in it, or that they are an addition to what stands there.
+const std::map<std::string, std::string> kAsTheTextSays{
+    {"motion.min_age", "5"},    // frames that a corner is tracked (§4.2)
+    {"motion.areas", "false"},  // an addition: the text has difference images or corners, never both
+    {"motion.method", "vectors"},
+    {"difference.gap", "3"},    // fig. 4.2
+    {"clustering.along", "3"},  // one distance in every direction
+    {"clustering.across", "3"},
+    {"stacking.enabled", "true"},
+    {"stacking.initialisation", "detections"},  // the better one of §7.3.4, and so the three below
+    {"stacking.arrangement", "circular_median"},
+    {"stacking.capacity", "50"},
+    {"stacking.min_height", "25"},
+    {"stacking.area_length", "119"},  // 345 px at 0.345 m/px
+    {"stacking.area_width", "39.7"},  // 115 px
+    {"stacking.neighbours", "3"},
+    {"stacking.follow_lone_vectors", "true"},
+    {"detection.method", "gradient"},
+    {"detection.extend_along", "2"},
+    {"detection.extend_across", "1.25"},
+    {"gradient.method", "lbp"},
+    {"gradient.quantile", "0"},  // the optimum of table 7.3
+    {"gradient.canny_variance", "0.5"},
+    {"gradient.min_box_area", "10"},
+    {"relative_connectivity.deviations", "1.2"},
+    {"relative_connectivity.min_points", "3"},
+    {"relative_connectivity.low", "40"},
+    {"relative_connectivity.high_factor", "2"},
+    {"sliding_window.model", "thesis"},
+    {"sliding_window.rescaling", "length_3"},
+    {"sliding_window.middle_scale", "1"},       // the original image …
+    {"sliding_window.smallest_scale", "0.85"},  // … one for smaller cars …
+    {"sliding_window.largest_scale", "3.8"},    // … and one for vehicles of 15 to 20 m
+    {"sliding_window.overlap_threshold", "0.1"},
+    {"mser.keep_spanning", "true"},  // to leave them out is an addition
+    {"duplicates.strategy", "by_detector"},
+    {"duplicates.measure", "overlap"},
+    {"outliers.min_vectors", "4"},
+    {"outliers.vector_margin", "0"},  // an addition
+    {"outliers.min_area", "10"},
+    {"outliers.inside_image", "true"},
+    {"tracking.min_overlap", "0.5"},
+    {"tracking.split_merge", "overlap_matrix"},
+    {"tracking.use_vectors", "true"},
+    {"tracking.vectors_first", "true"},
+    {"tracking.rebuilt_size", "stored"},
+    {"tracking.max_vectors", "20"},
+    {"tracking.relative_position_gain", "1"},
+    {"tracking.max_reconstructed", "10"},
+    {"tracking.suppress_duplicates", "false"},  // an idea of the outlook (§8.2)
+    {"finishing.keep_tentative", "true"},
+};
+
+/// Parameters whose place in the text names them without a value, or to which it refers.
+const std::set<std::string> kNamedWithoutAValue{
+    // The density of corners, what makes one, and the area in which it is tracked (§4.2; Förstner and Gülch 1987).
+    "registration.corner_spacing", "registration.corner_deviation", "registration.min_roundness", "registration.window",
+    // The speed of independent motion (§4.2).
+    "motion.min_speed",
+    // Difference images (§2.2).
+    "difference.background_frames", "difference.gradient_suppression", "difference.blur", "difference.strong_limit",
+    "difference.opening", "difference.closing", "difference.ghost_deviation", "difference.ghost_gradient",
+    // Alike motion of stacks and clusters; how long a usual vehicle is (§5.3).
+    "stacking.max_speed_difference", "stacking.max_turn", "stacking.vehicle_length",
+    // Radii and threshold of LBP (§5.4.1).
+    "gradient.lbp_radius_min", "gradient.lbp_radius_max", "gradient.lbp_threshold",
+    // The median car, and T_d, which fig. 7.8 varies (§5.4.3).
+    "sliding_window.car_length", "sliding_window.car_width", "sliding_window.decision_threshold",
+    // Methods of the literature (§7.4.1).
+    "tophat_otsu.element", "tophat_otsu.smoothing", "mser.delta", "mser.max_variation", "mser.min_area",
+    "mser.max_area", "mser.max_eccentricity", "canny_harris.high", "canny_harris.low_share",
+    "canny_harris.corner_share", "canny_harris.link", "canny_harris.min_corners", "canny_harris.closing",
+    // "Similar orientation and strong overlap" (§5.5.1).
+    "duplicates.threshold", "duplicates.max_turn",
+    // "Similar motion" (§6.2.2), the life of a track (§6.4), the Kalman filter's noise (§6.5).
+    "tracking.vector_speed_difference", "tracking.confirm_hits", "tracking.confirm_window",
+    "tracking.max_missing_tentative", "tracking.max_missing", "tracking.acceleration", "tracking.turn_rate",
+    "tracking.size_rate", "tracking.position_noise_m", "tracking.size_noise_m", "tracking.heading_noise",
+    // What persons and two-wheelers are called (§3), which changes no track.
+    "classes.person_size", "classes.two_wheeler_length"};
+
+TEST(ChainOptions, OfEveryParameterItIsDecidedWhatTheThesisSaysOfIt) {
+    ChainOptions preset = builtInPreset("thesis");
+    std::map<std::string, std::string> said = kAsTheTextSays;
+    std::set<std::string> open = kNamedWithoutAValue;
+    for (const Parameter& parameter : listParameters(describeOf(preset))) {
+        // Those without a place in the text: theThesisPresetLeavesNoNumberOfOursInForce, …SwitchesEveryAdditionOff.
+        if (parameter.text.source.empty() || open.erase(parameter.name) > 0) continue;
+        const auto asked = said.extract(parameter.name);
+        ASSERT_FALSE(asked.empty()) << parameter.name << " (" << parameter.text.source << ") is in neither list: what "
+                                    << "does the text say? An addition to it has the value that switches it off";
+        EXPECT_EQ(parameter.value, asked.mapped()) << parameter.name;
+    }
+    EXPECT_TRUE(open.empty()) << *open.begin() << " is no such parameter, or has no source";
+    EXPECT_TRUE(said.empty()) << said.begin()->first << " is no such parameter, or has no source";
 }
 
 TEST(ChainOptions, theThesisPresetDiffersFromTheDefaultsWhereItMust) {

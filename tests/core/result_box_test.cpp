@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "core/evidence/classified_box.h"
+
 namespace eyrie::result_box_test {
 namespace {
 
@@ -39,6 +43,23 @@ TEST(ResultBox, aDetectionIsABoxOfNoTrackWithTheScoreThatIsShown) {
     EXPECT_EQ(record.box.length, kBox.length);
     EXPECT_EQ(record.velocity, cv::Point2d(2, -1));
     EXPECT_EQ(record.score, 0.75);
+}
+
+TEST(ClassifiedBox, IsAKeptDetectionOfWhichTheClassifierSaysSomething) {
+    Detection whole, looked_at, plain, fused;
+    whole.complete = true;
+    whole.box = kBox;
+    looked_at.decision = -2.5;
+    fused.complete = true;
+    fused.decision = 4;
+    fused.rejection = Rejection::duplicate;
+    const auto boxes = classifiedOf({plain, whole, fused, looked_at, plain});
+    ASSERT_EQ(boxes.size(), 2U);
+    EXPECT_TRUE(boxes[0].whole);
+    EXPECT_EQ(boxes[0].box.centre, kBox.centre);
+    EXPECT_TRUE(std::isnan(boxes[0].decision));
+    EXPECT_FALSE(boxes[1].whole);
+    EXPECT_EQ(boxes[1].decision, -2.5);
 }
 
 }  // namespace

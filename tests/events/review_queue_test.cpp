@@ -76,32 +76,6 @@ TEST(ReviewQueue, UnsureAreScoresBelowTheGivenOne) {
     EXPECT_THAT(unsure("1"), ElementsAre(true, true, false));
 }
 
-TEST(ReviewQueue, TheNextOpenOneIsFoundAroundTheEnd) {
-    const std::vector<QueueItem> queue(4);
-    const auto open = [&](std::vector<bool> judged) {
-        return [&queue, judged](const QueueItem& item) { return judged[static_cast<std::size_t>(&item - &queue[0])]; };
-    };
-    EXPECT_EQ(nextOpen(queue, 1, open({false, false, true, false})), 3U);
-    EXPECT_EQ(nextOpen(queue, 3, open({true, false, true, true})), 1U);
-    EXPECT_EQ(nextOpen(queue, 1, open({true, false, true, true})), 1U) << "itself, if nothing else";
-    EXPECT_EQ(nextOpen(queue, 1, open({true, true, true, true})), std::nullopt);
-    EXPECT_EQ(nextOpen({}, 0, open({})), std::nullopt);
-}
-
-TEST(ReviewQueue, JudgedIsWhatIsNotOpen) {
-    CarriedVerdicts carried;
-    carried.of_event = {0, 4};
-    carried.of_stretch = {4};
-    Verdict starred;
-    starred.id = 4;
-    starred.starred = true;
-    EXPECT_FALSE(isJudged({QueueGroup::rest, true, 0}, carried, {{4, starred}}));
-    EXPECT_FALSE(isJudged({QueueGroup::rest, true, 1}, carried, {{4, starred}}));
-    starred.judgement = Judgement::unsure;
-    EXPECT_TRUE(isJudged({QueueGroup::rest, true, 1}, carried, {{4, starred}}));
-    EXPECT_TRUE(isJudged({QueueGroup::not_searched, false, 0}, carried, {{4, starred}}));
-}
-
 TEST(UnsearchedStretches, AreFramesThatNothingConnects) {
     Footage footage;
     footage.first_frame = 10;

@@ -44,6 +44,34 @@ TEST(StopGroups, WhatIsAloneIsOfNone) {
     EXPECT_TRUE(stopsOf({}).empty());
 }
 
+TEST(StopGroups, WhatMovedInBetweenIsOfNoStop) {
+    const auto none = [](const std::vector<Event>& events) {
+        EXPECT_THAT(stopsOf(events), testing::Each(Eq(std::nullopt)));
+    };
+    none({step(EventKind::stops, 10, 10), step(EventKind::stops, 20, 20)});
+    none({step(EventKind::stops, 10, 10), step(EventKind::stands, 11, 90)});
+    none({step(EventKind::stops, 10, 10), step(EventKind::starts, 10, 10)});  // a start comes later
+    none({step(EventKind::stands, 10, 90), step(EventKind::starts, 90, 90)});
+    none({step(EventKind::stands, 10, 90), step(EventKind::starts, 80, 80)});
+    none({step(EventKind::starts, 10, 10), step(EventKind::stands, 10, 90)});
+}
+
+TEST(StopGroups, OtherKindsAndSeveralVehiclesAreOfNone) {
+    const auto stops =
+        stopsOf({step(EventKind::appears, 10, 10), step(EventKind::stands, 10, 90), step(EventKind::leaves, 95, 95)});
+    EXPECT_THAT(stops, testing::Each(Eq(std::nullopt)));
+    Event together = step(EventKind::stands, 10, 90);
+    together.tracks = {1, 2};
+    EXPECT_THAT(stopsOf({together, step(EventKind::starts, 91, 91)}), testing::Each(Eq(std::nullopt)));
+}
+
+TEST(StopGroups, AStopInTwoStepsHasThemBoth) {
+    EXPECT_THAT(stopsOf({step(EventKind::stands, 10, 90), step(EventKind::starts, 91, 91)}),
+                ElementsAre(Eq(0U), Eq(0U)));
+    EXPECT_THAT(stopsOf({step(EventKind::stops, 10, 10), step(EventKind::stands, 10, 90)}),
+                ElementsAre(Eq(0U), Eq(0U)));
+}
+
 TEST(StopGroups, AreLookedAtWhereTheMostUrgentOfThemWouldBe) {
     // Stops and stands are many, only one vehicle starts again.
     std::vector<Event> events{step(EventKind::stops, 10, 10), step(EventKind::stands, 10, 90),

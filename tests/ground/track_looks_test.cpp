@@ -129,6 +129,70 @@ TEST(TrackLooks, WhatNoFrameShowsHasNone) {
     EXPECT_THAT(taker.looks(), testing::ElementsAre(testing::Key(1))) << "the other one is out of the picture";
 }
 
+TEST(TrackLooks, LikenessIsByHistogramsAndGradientsAsTheFormulaSays) {
+    TrackLook look;
+    for (auto& histogram : look.colours) histogram[2] = 1;
+    look.gradients = {1, 0};
+    EXPECT_DOUBLE_EQ(lookLikeness(look, look), 1);
+    TrackLook other = look;
+    other.colours[1] = {0, 0.75, 0.25, 0, 0, 0, 0, 0};  // a coefficient of ½
+    EXPECT_NEAR(lookLikeness(look, other), std::exp(-0.5 * 4 * 0.5), 1e-9);
+    other.colours[0] = {0, 0, 0, 1, 0, 0, 0, 0};  // and nothing in common
+    EXPECT_NEAR(lookLikeness(look, other), std::exp(-0.5 * 4 * 1.5), 1e-9);
+    other = look;
+    other.gradients = {0.7F, std::sqrt(0.51F)};  // one deviation
+    EXPECT_NEAR(lookLikeness(look, other), std::exp(-0.25), 1e-6);
+    other.gradients = {1};
+    EXPECT_EQ(lookLikeness(look, other), 0) << "of another kind";
+}
+
+TEST(TrackLooks, ColoursAreThoseOfTheBoxAgainstTheGroundAroundIt) {
+    // A box that fills three quarters of the window pixel by pixel, heading up.
+    const cv::Scalar paint(60, 110, 190);
+    Frame frame;
+    frame.colour = cv::Mat(150, 200, CV_8UC3, cv::Scalar::all(100));
+    frame.colour(cv::Rect(45, 49, 12, 24)).setTo(paint);
+    cv::cvtColor(frame.colour, frame.gray, cv::COLOR_BGR2GRAY);
+    LookTaker taker({{1, {{0, {{50.5, 60.5}, 24, 12, -CV_PI / 2}}}}});
+    taker.look(frame);
+    const TrackLook look = taker.looks().at(1);
+    cv::Mat lab(1, 2, CV_8UC3, paint);
+    lab.at<cv::Vec3b>(0, 1) = {100, 100, 100};
+    cv::cvtColor(lab, lab, cv::COLOR_BGR2Lab);
+    const cv::Vec3b vehicle = lab.at<cv::Vec3b>(0, 0), ground = lab.at<cv::Vec3b>(0, 1);
+    const double values[] = {128.0 + vehicle[0] - ground[0], 128 + 2 * (vehicle[1] - 128.0),
+                             128 + 2 * (vehicle[2] - 128.0)};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double at = values[i] / 32 - 0.5;  // bins of 32, counted from the middle of the first
+        const auto lower = static_cast<std::size_t>(at);
+        EXPECT_NEAR(look.colours[i].at(lower), 1 - (at - static_cast<double>(lower)), 1e-9) << i;
+        EXPECT_NEAR(look.colours[i].at(lower + 1), at - static_cast<double>(lower), 1e-9) << i;
+    }
+}
+
+TEST(TrackLooks, ATrackIsLookedAtInThreeFramesThatDivideByEight) {
+    EXPECT_THAT(LookTaker({trackOver(1, 0, 100)}).frames(), testing::ElementsAre(24, 48, 72));
+    EXPECT_THAT(LookTaker({trackOver(1, 0, 9)}).frames(), testing::ElementsAre(0, 8));
+    EXPECT_THAT(LookTaker({trackOver(1, 3, 5)}).frames(), testing::ElementsAre(4)) << "in the middle, if in none";
+}
+
+TEST(TrackLooks, WhoseMiddleIsInThePictureIsSeen) {
+    const auto isSeen = [](cv::Point2d centre, double length = 20) {
+        LookTaker taker({{1, {{0, {centre, length, 9, 0}}}}});
+        Frame frame;
+        frame.gray = cv::Mat(100, 200, CV_8UC1, cv::Scalar(90));
+        taker.look(frame);
+        return !taker.looks().empty();
+    };
+    EXPECT_TRUE(isSeen({0, 0}));
+    EXPECT_TRUE(isSeen({199, 99}));
+    EXPECT_FALSE(isSeen({200, 50}));
+    EXPECT_FALSE(isSeen({100, 100}));
+    EXPECT_FALSE(isSeen({-1, 50}));
+    EXPECT_FALSE(isSeen({50, -1}));
+    EXPECT_FALSE(isSeen({100, 50}, 0)) << "a box without an area";
+}
+
 TEST(TrackLooks, PicturesThatCannotBeReadAreCountedAndTheOthersLookedAt) {
     const std::vector<EventTrack> tracks{trackOver(1, 0, 100)};
     const std::vector<FrameIndex> frames = LookTaker(tracks).frames();

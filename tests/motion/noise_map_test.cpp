@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 namespace eyrie::noise_map_test {
 namespace {
 
@@ -59,6 +61,39 @@ TEST(NoiseMap, PlacesOutsideThePictureTakeTheNearestCell) {
 TEST(NoiseMap, WithoutCellsTheNoiseIsTheSameEverywhere) {
     const NoiseMap map = mapOf(0, [](int, int) { return 0.5; });
     EXPECT_EQ(map.at({200, 100}), 1);
+    NoiseMap crowded({400, 200}, 0);
+    for (int i = 0; i < 100; ++i) crowded.add({200, 100}, 0.5);
+    crowded.finish();
+    EXPECT_EQ(crowded.at({200, 100}), 1);
+}
+
+/// 60 still corners at one place of a picture of 500 × 300 px.
+NoiseMap crowdAt(cv::Point2f place, double cell) {
+    NoiseMap map({500, 300}, cell);
+    for (int i = 0; i < 60; ++i) map.add(place, 0.5);
+    map.finish();
+    return map;
+}
+
+TEST(NoiseMap, CornersCountInTheirCellAndTheEightAroundIt) {
+    for (const cv::Point crowd : {cv::Point(2, 1), {0, 0}, {4, 2}, {4, 0}}) {
+        const NoiseMap map = crowdAt(crowd * 100 + cv::Point(50, 50), 0.2);  // cells of 100 px
+        for (int y = 0; y < 3; ++y) {
+            for (int x = 0; x < 5; ++x) {
+                const bool near = std::abs(x - crowd.x) <= 1 && std::abs(y - crowd.y) <= 1;
+                EXPECT_EQ(map.at(cv::Point(x, y) * 100 + cv::Point(99, 1)), near ? 0.5 : 1) << x << ", " << y;
+            }
+        }
+    }
+    EXPECT_EQ(crowdAt({50, 250}, 0.2).at({50, 5000}), 0.5) << "below the picture";
+}
+
+TEST(NoiseMap, CellsAreNeverSmallerThanFourPixels) {
+    const NoiseMap map = crowdAt({9, 9}, 0.001);  // in the third cell of either axis
+    EXPECT_EQ(map.at({4, 4}), 0.5);
+    EXPECT_EQ(map.at({3.9F, 4}), 1);
+    EXPECT_EQ(map.at({15.9F, 15.9F}), 0.5);
+    EXPECT_EQ(map.at({15.9F, 16}), 1);
 }
 
 }  // namespace

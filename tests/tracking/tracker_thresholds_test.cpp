@@ -252,4 +252,22 @@ TEST(TrackerThresholds, WhereTheVideoIsSlowFewerHitsConfirmATrack) {
     EXPECT_EQ(framesUntilConfirmed(counted, 2), 2) << "never more than asked for";
 }
 
+TEST(TrackerThresholds, FewerHitsAreAsManyAsFitInSixTenthsOfASecond) {
+    const auto hitsAt = [](double frame_rate_hz, int asked = 5) {
+        TrackerOptions options;
+        options.confirm_hits = asked;
+        return options.atRate(frame_rate_hz).confirm_hits;
+    };
+    EXPECT_EQ(hitsAt(8.4, 20), 20) << "five frames fit";
+    EXPECT_EQ(hitsAt(8.3, 20), 20) << "19.9";
+    EXPECT_EQ(hitsAt(8, 20), 19);
+    EXPECT_EQ(hitsAt(5, 20), 12);
+    EXPECT_EQ(hitsAt(7), 4);
+    EXPECT_EQ(hitsAt(5), 3);
+    EXPECT_EQ(hitsAt(1), 3);
+    EXPECT_EQ(hitsAt(1, 20), 3) << "2.4, which is too few";
+    EXPECT_EQ(hitsAt(1, 2), 2);
+    EXPECT_EQ(TrackerOptions::thesis().atRate(1).confirm_hits, 5);
+}
+
 }  // namespace eyrie::tracker_thresholds_test

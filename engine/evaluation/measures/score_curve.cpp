@@ -53,11 +53,4 @@ std::vector<ScorePoint> scoreCurve(const BoxesByFrame& truth, const BoxesByFrame
     return curve;
 }
 
-const ScorePoint* bestPoint(const std::vector<ScorePoint>& curve) {
-    const auto best = std::max_element(curve.begin(), curve.end(), [](const ScorePoint& a, const ScorePoint& b) {
-        return a.detection.f_score < b.detection.f_score;
-    });
-    return best == curve.end() ? nullptr : &*best;
-}
-
 }  // namespace eyrie

@@ -25,7 +25,4 @@ std::vector<ScorePoint> scoreCurve(const BoxesByFrame& truth, const BoxesByFrame
                                    const EvaluationOptions& options, std::size_t most = 100,
                                    const std::stop_token& stop = {});
 
-/// Where the f-score is largest; the lowest threshold of several, null for an empty curve.
-const ScorePoint* bestPoint(const std::vector<ScorePoint>& curve);
-
 }  // namespace eyrie

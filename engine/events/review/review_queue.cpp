@@ -7,13 +7,6 @@
 #include "events/review/stop_groups.h"
 
 namespace eyrie {
-namespace {
-
-int verdictOf(const QueueItem& item, const CarriedVerdicts& carried) {
-    return item.is_event ? carried.of_event.at(item.index) : carried.of_stretch.at(item.index);
-}
-
-}  // namespace
 
 const char* nameOf(QueueGroup group) {
     constexpr std::array<const char*, 5> kNames = {"could not be searched", "lost in mid-picture", "rare", "unsure",
@@ -87,20 +80,6 @@ std::vector<QueueItem> reviewQueue(const std::vector<Event>& events, const std::
     queue.reserve(places.size());
     for (const Place& place : places) queue.push_back(place.item);
     return queue;
-}
-
-bool isJudged(const QueueItem& item, const CarriedVerdicts& carried, const std::map<int, Verdict>& verdicts) {
-    const auto verdict = verdicts.find(verdictOf(item, carried));
-    return verdict != verdicts.end() && verdict->second.judgement != Judgement::open;
-}
-
-std::optional<std::size_t> nextOpen(const std::vector<QueueItem>& queue, std::size_t position,
-                                    const std::function<bool(const QueueItem&)>& judged) {
-    for (std::size_t step = 1; step <= queue.size(); ++step) {
-        const std::size_t at = (position + step) % queue.size();
-        if (!judged(queue[at])) return at;
-    }
-    return std::nullopt;
 }
 
 }  // namespace eyrie

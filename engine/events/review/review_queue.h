@@ -1,9 +1,7 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <map>
-#include <optional>
 #include <vector>
 
 #include "events/review/carry_over.h"
@@ -35,11 +33,5 @@ std::vector<bool> unsureEvents(const std::vector<Event>& events, const StoredTra
 /// long as `events`. Order it when events change, not with every verdict, so that things stay where they are.
 std::vector<QueueItem> reviewQueue(const std::vector<Event>& events, const std::vector<FrameSpan>& unsearched,
                                    const std::vector<bool>& unsure, const ReviewOptions& options = {});
-
-/// Whether somebody judged it: relevant, not relevant or unsure.
-bool isJudged(const QueueItem& item, const CarriedVerdicts& carried, const std::map<int, Verdict>& verdicts);
-/// Position of the next item that is not judged, after `position` and around; nothing when all are.
-std::optional<std::size_t> nextOpen(const std::vector<QueueItem>& queue, std::size_t position,
-                                    const std::function<bool(const QueueItem&)>& judged);
 
 }  // namespace eyrie

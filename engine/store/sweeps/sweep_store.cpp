@@ -9,12 +9,11 @@
 namespace eyrie {
 namespace {
 
-std::vector<SweepRecord> readSweeps(SQLite::Database& database, int id) {
+std::vector<SweepRecord> readSweeps(SQLite::Database& database) {
     SQLite::Statement statement(
         database,
         "SELECT id, made_utc, name, point_count, (SELECT count(*) FROM sweep_point WHERE sweep_id = sweep.id), plan "
-        "FROM sweep WHERE ? IN (0, id) ORDER BY id");
-    statement.bind(1, id);
+        "FROM sweep ORDER BY id");
     std::vector<SweepRecord> sweeps;
     while (statement.executeStep()) {
         RowReader row(statement);
@@ -37,16 +36,7 @@ std::string ofSweep(int id) {
 }  // namespace
 
 std::vector<SweepRecord> SweepStore::sweeps() const {
-    return guarded(project_.path(), "listing the sweeps", [&] { return readSweeps(project_.database(), 0); });
-}
-
-std::optional<SweepRecord> SweepStore::sweep(int id) const {
-    if (id <= 0) return std::nullopt;
-    return guarded(project_.path(), "reading sweep " + std::to_string(id), [&]() -> std::optional<SweepRecord> {
-        auto found = readSweeps(project_.database(), id);
-        if (found.empty()) return std::nullopt;
-        return std::move(found.front());
-    });
+    return guarded(project_.path(), "listing the sweeps", [&] { return readSweeps(project_.database()); });
 }
 
 int SweepStore::add(const std::string& name, int point_count, const std::string& plan) {
@@ -96,13 +86,6 @@ std::set<int> SweepStore::pointsDone(int sweep) const {
         std::set<int> done;
         while (statement.executeStep()) done.insert(RowReader(statement).integer());
         return done;
-    });
-}
-
-void SweepStore::rename(int sweep, const std::string& name) {
-    guarded(project_.path(), "naming sweep " + std::to_string(sweep), [&] {
-        SQLite::Statement statement(project_.database(), "UPDATE sweep SET name = ? WHERE id = ?");
-        RowWriter(statement).text(name).integer(sweep).run();
     });
 }
 

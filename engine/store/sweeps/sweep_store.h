@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -34,14 +33,12 @@ class SweepStore {
     explicit SweepStore(ProjectFile& project) : project_(project) {}
 
     std::vector<SweepRecord> sweeps() const;  ///< oldest first
-    std::optional<SweepRecord> sweep(int id) const;
     /// Adds a sweep without points; answers its id.
     int add(const std::string& name, int point_count, const std::string& plan);
     /// Adds a point; one that is there already stays as it is. False then.
     bool addPoint(int sweep, const SweepPointRecord& point);
     std::vector<SweepPointRecord> points(int sweep) const;  ///< ascending positions
     std::set<int> pointsDone(int sweep) const;
-    void rename(int sweep, const std::string& name);
     void remove(int sweep);
 
  private:

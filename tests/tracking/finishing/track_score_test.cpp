@@ -184,6 +184,52 @@ TEST(TrackScore, IsTheSumOfWhatSpeaksForATrackAndAgainstIt) {
     }
 }
 
+/// By the weights that were learned, written here once more: who learns them anew changes both.
+TEST(TrackScore, IsTheLogisticSumOfWhatWasLearned) {
+    TrackEvidence evidence;
+    evidence.detected = 0.8;
+    evidence.decision = 3;
+    evidence.life_s = 1.9;
+    evidence.flow_px = 2;
+    evidence.flow_ratio = 0.2;
+    evidence.alignment = -0.5;  // half of a thing that lies below the ground
+    const double flow = std::log(3.0);
+    const double alike =
+        -3.877 + 4.994 * 0.8 + 0.643 * std::log(2.0) + flow * (-0.770 - 0.5 + 1.360 * 0.2 - 1.036 * 0.2);
+    const auto logistic = [](double sum) { return 1 / (1 + std::exp(-sum)); };
+    EXPECT_NEAR(probabilityOf(evidence), logistic(alike + 0.429 * 3), 1e-9);
+    EXPECT_NEAR(probabilityOf(with(&TrackEvidence::decision, std::nan(""), evidence)), logistic(alike + 0.429 * 1.8),
+                1e-9)
+        << "nobody looked: as if it were no sign either way";
+    const ScoreParts parts = partsOf(evidence);
+    EXPECT_NEAR(parts.looks, -3.877 + 4.994 * 0.6 + 0.429 * 3, 1e-9);
+    EXPECT_NEAR(parts.detected, 4.994 * 0.2 - 1.036 * flow * 0.2, 1e-9);
+    EXPECT_NEAR(parts.life, 0.643 * std::log(2.0), 1e-9);
+    EXPECT_NEAR(parts.motion, flow * (-0.770 - 0.5 + 1.360 * 0.2), 1e-9);
+    // It moves aside by .224 of the flow through the picture: a quarter of what sticks.
+    evidence.flow_ratio = 1;
+    evidence.alignment = -0.975;
+    const double sticks = 1 - std::sqrt(0.05) / 0.3;
+    EXPECT_NEAR(partsOf(evidence).motion, flow * (-0.770 - sticks + 1.360), 1e-9);
+}
+
+TEST(TrackScore, EvidenceIsCountedInFramesThatItDoesNotStand) {
+    const TrackEvidence evidence = evidenceOf({50, 40, {10, 4, 12}}, FlowComparison{0.7, 0.9, -0.2, 1.5}, 25);
+    EXPECT_DOUBLE_EQ(evidence.detected, 0.8);
+    EXPECT_DOUBLE_EQ(evidence.looked_alike, 0.25);
+    EXPECT_DOUBLE_EQ(evidence.decision, 3);
+    EXPECT_DOUBLE_EQ(evidence.life_s, 2);
+    EXPECT_DOUBLE_EQ(evidence.flow_ratio, 0.7);
+    EXPECT_DOUBLE_EQ(evidence.alignment, -0.2);
+    EXPECT_DOUBLE_EQ(evidence.flow_px, 1.5);
+    EXPECT_DOUBLE_EQ(evidence.score, probabilityOf(evidence));
+    const TrackEvidence nothing = evidenceOf({0, 0, {}}, std::nullopt, 25);
+    EXPECT_DOUBLE_EQ(nothing.life_s, 0.04) << "a frame at least";
+    EXPECT_EQ(nothing.detected, 0);
+    EXPECT_EQ(nothing.flow_px, 0);
+    EXPECT_DOUBLE_EQ(evidenceOf({1, 1, {1, 0, 0}}, std::nullopt, 25).looked_alike, 1);
+}
+
 TEST(TrackScore, TellsWhatSpokeForEachTrackAndKeepsTheDoubtfulOnes) {
     CarAndCloud scene;
     const StatesOfRun states = [&](const StateVisitor& visitor) {

@@ -72,10 +72,6 @@ void LineChart::setMarker(std::optional<double> place) {
     plot_->replot(QCustomPlot::rpQueuedReplot);
 }
 
-std::optional<double> LineChart::marker() const {
-    return marker_->visible() ? std::optional(marker_->point1->key()) : std::nullopt;
-}
-
 void LineChart::fill() {
     plot_->clearGraphs();
     plot_->xAxis->setLabel(data_.place_label);

@@ -42,7 +42,6 @@ class LineChart : public QWidget {
     const LineData& data() const { return data_; }
     /// A vertical line, such as at the frame shown; nothing: none.
     void setMarker(std::optional<double> place);
-    std::optional<double> marker() const;
     QPixmap picture() const { return const_cast<LineChart*>(this)->grab(); }
 
     QSize sizeHint() const override { return {340, 170}; }
