@@ -457,6 +457,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
         });
         return;
     }
+    write_wait_.watch();
     session_.keepWritten();
     files_->rememberView();
     settings_.setGeometry(saveGeometry());
@@ -474,7 +475,12 @@ void MainWindow::closeEvent(QCloseEvent* event) {
 /// Whether what a person did last is on its way into its files still. The window closes by itself once it is there, and
 /// stays where it could not be written, so that its message is read.
 bool MainWindow::waitsForWrites() {
-    if (std::exchange(written_, false) || !write_wait_.anythingDue()) return false;
+    if (std::exchange(written_, false)) return false;
+    if (!write_wait_.anythingDue()) {
+        const bool failed = write_wait_.anythingFailed();
+        if (failed) closing_ = false;
+        return failed;
+    }
     messages_->showTopic(kClosingTopic, MessageKind::info,
                          tr("Saving your last changes. The window closes when they are stored."));
     write_wait_.begin([this](bool) {
