@@ -5,7 +5,6 @@
 #include <QMenuBar>
 #include <QTimer>
 #include <QToolBar>
-#include <QVBoxLayout>
 #include <functional>
 #include <numbers>
 
@@ -27,6 +26,7 @@
 #include "label/object_pictures.h"
 #include "widgets/display_text.h"
 #include "widgets/empty_state.h"
+#include "widgets/layout/overlay_column.h"
 #include "widgets/message_bar.h"
 #include "widgets/wiring.h"
 #include "workspace/dock_registry.h"
@@ -235,8 +235,7 @@ void LabelWorkspace::chooseProposal(TrackId track, bool add) {
 void LabelWorkspace::buildWork() {
     const auto enable = [this] { enableActions(); };
     strip_ = new TrackingStrip([this] { tracking_->stop(); });
-    if (auto* column = qobject_cast<QVBoxLayout*>(around_.canvas.parentWidget()->layout()))
-        column->insertWidget(column->indexOf(&around_.canvas), strip_);
+    around_.over_canvas.add(*strip_);
     fitting_ = new LabelFitting(around_.session, *labels_, enable, this);
     tracking_ = new LabelTracking(around_.session, *labels_,
                                   {.working_changed =

@@ -40,6 +40,7 @@
 #include "tune/inspect/stacks_panel.h"
 #include "tune/inspect/stage_chips.h"
 #include "tune/parameters/parameter_binding.h"
+#include "widgets/layout/overlay_column.h"
 #include "widgets/layout/top_overlay.h"
 #include "widgets/message_bar.h"
 #include "widgets/wiring.h"
@@ -112,13 +113,13 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
         {session_, *canvas_, *timeline_, *review_, *events_, *docks_, *actions_, *messages_, overlays_, *this});
     event_report_ = new EventReport({session_, *events_, *messages_, *this});
     new RunHandover({session_, *events_, *actions_, *messages_, *this});
-    tuning_ = new Tuning(
-        {session_, *canvas_, *docks_, review_->parameterForm(), *actions_, review_->parameters(), overlays_, *this});
+    tuning_ = new Tuning({session_, *canvas_, *over_canvas_, *docks_, review_->parameterForm(), *actions_,
+                          review_->parameters(), overlays_, *this});
     buildEvaluation();
     new TimelineThumbnails(session_, *timeline_, this);
     buildClock();
     labelling_ = new LabelWorkspace(
-        {session_, *canvas_, *timeline_, *label_rows_, *messages_, *actions_, *docks_, keys_, *this});
+        {session_, *canvas_, *timeline_, *label_rows_, *messages_, *over_canvas_, *actions_, *docks_, keys_, *this});
     evaluation_->join(*labelling_);
     buildRunMessages();
     files_ =
@@ -167,13 +168,15 @@ void MainWindow::buildCentre() {
     auto* layout = new QVBoxLayout(centre);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
+    // In a row of its own: it stays for hours, and may hide nothing that drives along the upper edge.
     live_strip_ = new LiveStrip(session_);
     layout->addWidget(live_strip_);
     layout->addWidget(stack_, 1);
-    // Over the picture, not in a row of its own: what a person points at stays where it is when a message comes or
-    // goes.
-    messages_->setParent(centre);
-    new TopOverlay(*messages_, *stack_, centre);
+    // Over the picture: what a person points at stays where it is when one of these comes or goes.
+    over_canvas_ = new OverlayColumn(centre);
+    over_canvas_->add(*messages_);
+    auto* overlay = new TopOverlay(*over_canvas_, *stack_, centre);
+    overlay->setCovers([this](int covered_px) { canvas_->setCovered(covered_px); });
     setCentralWidget(centre);
 }
 
