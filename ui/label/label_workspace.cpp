@@ -142,7 +142,11 @@ void LabelWorkspace::wireLabels() {
     whenChanged(around_.session, this,
                 {{SessionChange::keep_written, [this] { inspector_->keepWritten(); }},
                  {SessionChange::picture, [this] { pictureChanged(); }},
-                 {SessionChange::video, [this] { objects_->explainNothing(around_.session.video().has_value()); }},
+                 {SessionChange::video,
+                  [this] {
+                      objects_->explainNothing(around_.session.video().has_value());
+                      enableActions();
+                  }},
                  {{SessionChange::current_run, SessionChange::run_started, SessionChange::video},
                   [this] { around_.messages.dismissTopic(kNoRunTopic); }},
                  {SessionChange::frame, [this] {
@@ -370,8 +374,14 @@ void LabelWorkspace::enableActions() {
     actions_->offer_again->setEnabled(proposals_->rejectedCount() > 0);
     actions_->stop_tracking->setEnabled(tracking_->working() || fitting_->working());
     actions_->try_to_write->setEnabled(labels_->isOpen() && labels_->readOnly());
-    for (QAction* action : {actions_->draw, actions_->region, actions_->import_labels, actions_->export_labels})
+    for (QAction* action :
+         {actions_->draw, actions_->region, actions_->delete_region, actions_->region_begins, actions_->region_ends,
+          actions_->region_anchor, actions_->import_labels, actions_->export_labels, actions_->next_object,
+          actions_->previous_object, actions_->next_attention, actions_->next_unchecked, actions_->proposals,
+          actions_->proposal_tolerance})
         action->setEnabled(labels_->isOpen());
+    for (QAction* action : {actions_->next_frame, actions_->previous_frame, actions_->ten_on, actions_->ten_back})
+        action->setEnabled(around_.session.video().has_value());
 }
 
 void LabelWorkspace::followObject() {

@@ -410,9 +410,12 @@ void MainWindow::enableActions() {
     actions_->full_screen->setEnabled(true);
     watching_->enableActions();
     for (QAction* action : actions_->workspace) action->setEnabled(true);
+    const bool has_run = session_.currentRun().has_value();
+    actions_->why->setEnabled(has_run);
+    actions_->compare->setEnabled(has_run);
     actions_->run->setEnabled(has_video && !running);
     actions_->stop->setEnabled(running);
-    actions_->continue_run->setEnabled(session_.currentRun() && session_.canContinue(*session_.currentRun()));
+    actions_->continue_run->setEnabled(has_run && session_.canContinue(*session_.currentRun()));
     actions_->follow->setEnabled(running);
     actions_->save_as->setEnabled(has_video && !running);
     actions_->restore_state->setEnabled(!session_.project().empty());
