@@ -212,6 +212,7 @@ void ProjectSession::showRun(int run_id) {
     if (run == nullptr || current_run_ == run_id) return;
     if (running()) setFollowing(false);
     if (media_ && media_->identity != run->sequence.path) {
+        keepWritten();
         const Media media = mediaOfIdentity(run->sequence.path, {.remembered_hz = run->sequence.rememberedRate()});
         beginOpening({media, Purpose::of_project, project_, run->sequence, run_id});
         return;
