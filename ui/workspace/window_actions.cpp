@@ -233,8 +233,8 @@ QAction* WindowActions::addToggle(const QString& text, const Look& look, bool ch
     return action;
 }
 
-QAction* WindowActions::addForKeys(const QString& text, const QList<QKeySequence>& keys) {
-    QAction* action = add(text, {nullptr, keys});
+QAction* WindowActions::addForKeys(const QString& text, const QList<QKeySequence>& shortcuts) {
+    QAction* action = add(text, {nullptr, shortcuts});
     for_keys_.insert(action);
     return action;
 }

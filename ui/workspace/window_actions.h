@@ -61,7 +61,7 @@ class WindowActions : public QObject {
     QAction* add(const QString& text, const Look& look);
     QAction* addToggle(const QString& text, const Look& look, bool checked);
     /// What only who has no mouse needs: it stands on the sheet of keys, not in the menu.
-    QAction* addForKeys(const QString& text, const QList<QKeySequence>& keys);
+    QAction* addForKeys(const QString& text, const QList<QKeySequence>& shortcuts);
     void addEvents();
     void addOverlays(OverlaySettings& overlays);
     void followOverlays(const OverlaySettings& overlays);

@@ -350,7 +350,7 @@ class TablesTest : public QObject {
         };
         const auto* header = panel.table()->horizontalHeader();
         const int column = TracksModel::first_column;
-        const QString title = model.headerData(column, Qt::Horizontal).toString();
+        const QString title = model.headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
         QVERIFY(choose(QStringLiteral("Columns"), title));
         QVERIFY(panel.table()->isColumnHidden(column));
         QVERIFY(choose(QStringLiteral("Columns"), title));

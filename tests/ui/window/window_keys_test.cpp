@@ -1,3 +1,4 @@
+#include <QLineEdit>
 #include <QMap>
 #include <QMenu>
 #include <QMenuBar>
