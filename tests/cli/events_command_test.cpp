@@ -204,6 +204,14 @@ TEST_F(EventsCommand, EventsCanBeChosenByTheirVerdict) {
     EXPECT_THAT(wrong.errors, HasSubstr("there are: open, relevant, not relevant, unsure"));
 }
 
+TEST_F(EventsCommand, EventsCanBeChosenByTheirTags) {
+    judge(EventKind::stops, 330, Judgement::relevant, "");  // tagged "lorry"
+    const auto tagged = call({"--project", "@p.eyrie", "--tag", "gate 3,lorry"});
+    EXPECT_EQ(tagged.exit_code, 0) << tagged.errors;
+    EXPECT_THAT(tagged.output, HasSubstr("1 event of 1 tracks: 1 stops"));
+    EXPECT_THAT(call({"--project", "@p.eyrie", "--tag", "bus"}).output, Not(HasSubstr("stops ")));
+}
+
 TEST_F(EventsCommand, VerdictsThatNoEventTakesUpAreListed) {
     judge(EventKind::stops, 150, Judgement::relevant, "earlier");
     judge(EventKind::crosses, 237, Judgement::unsure, "");

@@ -165,6 +165,18 @@ TEST_F(ReviewReport, EveryEventIsTheDefaultOfTheChoice) {
     EXPECT_THAT(htmlOf(input), AllOf(HasSubstr("not judged"), HasSubstr("all events, judged or not")));
 }
 
+TEST_F(ReviewReport, TagsChooseToo) {
+    writeRun(true);
+    judge(EventKind::stops, Judgement::relevant, "");  // tagged "lorry"
+    EventChoice choice;
+    choice.tags = {"gate <3>", "lorry"};
+    const ReviewReportInput input = gather(choice);
+    EXPECT_EQ(countOfEvents(input), 1u);
+    EXPECT_THAT(htmlOf(input), HasSubstr("; tagged gate &lt;3&gt; or lorry"));
+    choice.tags = {"gate 3"};
+    EXPECT_EQ(countOfEvents(gather(choice)), 0u);
+}
+
 TEST_F(ReviewReport, WithoutAKnownScaleNobodyIsToldMetres) {
     writeRun(false);
     const std::string html = htmlOf(gather());

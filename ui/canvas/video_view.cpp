@@ -109,6 +109,13 @@ void VideoView::setBadgeOnRight(bool on_right) {
     pictureWasChanged();
 }
 
+void VideoView::setCovered(int covered_px) {
+    if (covered_px == covered_px_) return;
+    covered_px_ = covered_px;
+    if (!badge_.isEmpty()) pictureWasChanged();
+    update();  // the hint of a tool
+}
+
 void VideoView::setTool(CanvasTool* tool) {
     tool_ = tool;
     under_tool_ = {};

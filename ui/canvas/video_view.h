@@ -50,6 +50,8 @@ class VideoView : public QWidget {
     /// A few words that stand on the picture, such as "preview"; empty: none.
     void setBadge(const QString& text);
     void setBadgeOnRight(bool on_right);
+    /// How much of the top lies under something else, px: what is written there moves down.
+    void setCovered(int covered_px);
     /// What the mouse does and what is drawn on top; null: the canvas' own. Must outlive the view, or be taken away.
     void setTool(CanvasTool* tool);
     CanvasTool* tool() const { return tool_; }
@@ -143,6 +145,7 @@ class VideoView : public QWidget {
     std::optional<PlaceMark> place_mark_;
     QString badge_;
     bool badge_on_right_ = false;
+    int covered_px_ = 0;
     std::optional<QPointF> drag_from_;  ///< view point of the last drag step
     QPointF pressed_at_;
     bool dragged_ = false;

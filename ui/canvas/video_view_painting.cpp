@@ -111,7 +111,7 @@ void VideoView::paintTool(QPainter& painter) const {
     const QString wanted = tool_->hint(shown);
     // Where one works the hint would be in the way.
     const auto edge = anchor().y() > height() - kHintRoom ? HintEdge::upper : HintEdge::lower;
-    paintToolHint(painter, shown.view, edge,
+    paintToolHint(painter, shown.view.adjusted(0, covered_px_, 0, 0), edge,
                   wanted.isEmpty() ? pointer_.hint() : wanted + QLatin1Char('\n') + pointer_.hint());
 }
 
@@ -137,7 +137,7 @@ void VideoView::paintPlaceMark(QPainter& painter) const {
 void VideoView::paintBadge(QPainter& painter) const {
     if (badge_.isEmpty()) return;
     const QRectF text = painter.fontMetrics().boundingRect(badge_);
-    QRectF plate(10, 10, text.width() + 20, text.height() + 10);
+    QRectF plate(10, 10 + covered_px_, text.width() + 20, text.height() + 10);
     if (badge_on_right_) plate.moveRight(width() - 10);
     painter.setPen(Qt::NoPen);
     painter.setBrush(toolColour());

@@ -17,6 +17,7 @@ class LabelTimeline;
 class LabelTool;
 class LabelTracking;
 class MessageBar;
+class OverlayColumn;
 class ProjectSession;
 class TimelineView;
 class VideoView;
@@ -32,6 +33,7 @@ struct LabelSurroundings {
     TimelineView& timeline;
     LabelTimeline& rows;
     MessageBar& messages;
+    OverlayColumn& over_canvas;
     WindowActions& actions;
     DockRegistry& docks;
     KeyBindings& keys;

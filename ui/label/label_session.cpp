@@ -181,6 +181,7 @@ bool LabelSession::guarded(Work&& work) {
         work();
         return true;
     } catch (const std::exception& error) {
+        TaskPool::common()->countFailedWrite();  // also whoever is about to close the window is to know
         emit problem(QString::fromUtf8(error.what()));
         return false;
     }

@@ -5,7 +5,6 @@
 #include <QMenuBar>
 #include <QTimer>
 #include <QToolBar>
-#include <QVBoxLayout>
 #include <functional>
 #include <numbers>
 
@@ -27,6 +26,7 @@
 #include "label/object_pictures.h"
 #include "widgets/display_text.h"
 #include "widgets/empty_state.h"
+#include "widgets/layout/overlay_column.h"
 #include "widgets/message_bar.h"
 #include "widgets/wiring.h"
 #include "workspace/dock_registry.h"
@@ -142,7 +142,11 @@ void LabelWorkspace::wireLabels() {
     whenChanged(around_.session, this,
                 {{SessionChange::keep_written, [this] { inspector_->keepWritten(); }},
                  {SessionChange::picture, [this] { pictureChanged(); }},
-                 {SessionChange::video, [this] { objects_->explainNothing(around_.session.video().has_value()); }},
+                 {SessionChange::video,
+                  [this] {
+                      objects_->explainNothing(around_.session.video().has_value());
+                      enableActions();
+                  }},
                  {{SessionChange::current_run, SessionChange::run_started, SessionChange::video},
                   [this] { around_.messages.dismissTopic(kNoRunTopic); }},
                  {SessionChange::frame, [this] {
@@ -235,8 +239,7 @@ void LabelWorkspace::chooseProposal(TrackId track, bool add) {
 void LabelWorkspace::buildWork() {
     const auto enable = [this] { enableActions(); };
     strip_ = new TrackingStrip([this] { tracking_->stop(); });
-    if (auto* column = qobject_cast<QVBoxLayout*>(around_.canvas.parentWidget()->layout()))
-        column->insertWidget(column->indexOf(&around_.canvas), strip_);
+    around_.over_canvas.add(*strip_);
     fitting_ = new LabelFitting(around_.session, *labels_, enable, this);
     tracking_ = new LabelTracking(around_.session, *labels_,
                                   {.working_changed =
@@ -371,8 +374,14 @@ void LabelWorkspace::enableActions() {
     actions_->offer_again->setEnabled(proposals_->rejectedCount() > 0);
     actions_->stop_tracking->setEnabled(tracking_->working() || fitting_->working());
     actions_->try_to_write->setEnabled(labels_->isOpen() && labels_->readOnly());
-    for (QAction* action : {actions_->draw, actions_->region, actions_->import_labels, actions_->export_labels})
+    for (QAction* action :
+         {actions_->draw, actions_->region, actions_->delete_region, actions_->region_begins, actions_->region_ends,
+          actions_->region_anchor, actions_->import_labels, actions_->export_labels, actions_->next_object,
+          actions_->previous_object, actions_->next_attention, actions_->next_unchecked, actions_->proposals,
+          actions_->proposal_tolerance})
         action->setEnabled(labels_->isOpen());
+    for (QAction* action : {actions_->next_frame, actions_->previous_frame, actions_->ten_on, actions_->ten_back})
+        action->setEnabled(around_.session.video().has_value());
 }
 
 void LabelWorkspace::followObject() {

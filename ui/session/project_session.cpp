@@ -130,20 +130,42 @@ void ProjectSession::saveProjectAs(const fs::path& target) {
     }
 }
 
-/// The copy is made. What was done meanwhile, and what is being written, goes into the former file; then nobody writes
-/// there any more, so that the rest can be copied.
+/// The copy is made. What is at work in the background ends first, with what it has found by now.
 void ProjectSession::beginMove() {
+    if (!project_open_ || moved_from_) return;
+    keepWritten();
+    move_wait_.begin([this](bool) { leaveForMove(); });
+}
+
+/// What was done meanwhile, and what is being written, goes into the former file; then nobody writes there any more, so
+/// that the rest can be copied.
+void ProjectSession::leaveForMove() {
     if (running()) {
+        reader_.dropMove();
         emit problem(
             tr("The project was not saved under another name: a run has begun to write into it. Save again when "
                "it has ended."));
         return;
     }
-    if (!project_open_ || moved_from_) return;
+    move_wait_.watch();
     keepWritten();
     moved_from_ = std::exchange(project_, {});
     emit changed(SessionChange::project);
-    move_wait_.begin([this](bool) { reader_.move(); });
+    move_wait_.begin([this](bool all_written) { finishMove(all_written); });
+}
+
+/// A change that does not reach the former file would not be in the copy either: work goes on where it was.
+void ProjectSession::finishMove(bool all_written) {
+    if (all_written && !move_wait_.anythingFailed()) {
+        reader_.move();
+        return;
+    }
+    reader_.dropMove();
+    moveFailed(all_written
+                   ? tr("The project was not saved under another name, since your last change could not be stored in "
+                        "the present one. Work goes on there; make the change again, then save.")
+                   : tr("The project was not saved under another name, since your last change is still being stored "
+                        "in the present one. Work goes on there; save again in a moment."));
 }
 
 /// Something else is asked for, which comes after.
@@ -190,6 +212,7 @@ void ProjectSession::showRun(int run_id) {
     if (run == nullptr || current_run_ == run_id) return;
     if (running()) setFollowing(false);
     if (media_ && media_->identity != run->sequence.path) {
+        keepWritten();
         const Media media = mediaOfIdentity(run->sequence.path, {.remembered_hz = run->sequence.rememberedRate()});
         beginOpening({media, Purpose::of_project, project_, run->sequence, run_id});
         return;

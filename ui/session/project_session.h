@@ -220,6 +220,8 @@ class ProjectSession : public QObject {
     void awaitProject(bool opens_video);
     bool isAwaited();
     void beginMove();
+    void leaveForMove();
+    void finishMove(bool all_written);
     void endMove();
     /// Where what the project holds can be read.
     const std::filesystem::path& fileOfProject() const { return moved_from_ ? *moved_from_ : project_; }
@@ -295,7 +297,7 @@ class ProjectSession : public QObject {
     ResultLoader loader_;
     std::shared_ptr<CorrectedTracksMemo> corrected_tracks_ = std::make_shared<CorrectedTracksMemo>();
     ProjectReader reader_{corrected_tracks_};
-    WrittenWait move_wait_;  ///< for what goes into the former file still
+    WrittenWait move_wait_;  ///< for what is at work, and then for what goes into the former file still
     RunController controller_;
 };
 

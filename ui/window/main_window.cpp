@@ -27,6 +27,8 @@
 #include "tune/compare/live_preview.h"
 #include "tune/evaluate/evaluation_session.h"
 #include "tune/inspect/inspection.h"
+#include "tune/parameters/parameter_binding.h"
+#include "widgets/layout/overlay_column.h"
 #include "widgets/layout/top_overlay.h"
 #include "widgets/message_bar.h"
 #include "widgets/wiring.h"
@@ -102,13 +104,13 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
         {session_, *canvas_, *timeline_, *review_, *events_, *docks_, *actions_, *messages_, overlays_, *this});
     event_report_ = new EventReport({session_, *events_, *messages_, *this});
     new RunHandover({session_, *events_, *actions_, *messages_, *this});
-    tuning_ = new Tuning(
-        {session_, *canvas_, *docks_, review_->parameterForm(), *actions_, review_->parameters(), overlays_, *this});
+    tuning_ = new Tuning({session_, *canvas_, *over_canvas_, *docks_, review_->parameterForm(), *actions_,
+                          review_->parameters(), overlays_, *this});
     buildEvaluation();
     new TimelineThumbnails(session_, *timeline_, this);
     buildClock();
     labelling_ = new LabelWorkspace(
-        {session_, *canvas_, *timeline_, *label_rows_, *messages_, *actions_, *docks_, keys_, *this});
+        {session_, *canvas_, *timeline_, *label_rows_, *messages_, *over_canvas_, *actions_, *docks_, keys_, *this});
     evaluation_->join(*labelling_);
     buildRunMessages();
     files_ =
@@ -157,13 +159,15 @@ void MainWindow::buildCentre() {
     auto* layout = new QVBoxLayout(centre);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
+    // In a row of its own: it stays for hours, and may hide nothing that drives along the upper edge.
     live_strip_ = new LiveStrip(session_);
     layout->addWidget(live_strip_);
     layout->addWidget(stack_, 1);
-    // Over the picture, not in a row of its own: what a person points at stays where it is when a message comes or
-    // goes.
-    messages_->setParent(centre);
-    new TopOverlay(*messages_, *stack_, centre);
+    // Over the picture: what a person points at stays where it is when one of these comes or goes.
+    over_canvas_ = new OverlayColumn(centre);
+    over_canvas_->add(*messages_);
+    auto* overlay = new TopOverlay(*over_canvas_, *stack_, centre);
+    overlay->setCovers([this](int covered_px) { canvas_->setCovered(covered_px); });
     setCentralWidget(centre);
 }
 
@@ -330,9 +334,12 @@ void MainWindow::enableActions() {
     actions_->full_screen->setEnabled(true);
     watching_->enableActions();
     for (QAction* action : actions_->workspace) action->setEnabled(true);
+    const bool has_run = session_.currentRun().has_value();
+    actions_->why->setEnabled(has_run);
+    actions_->compare->setEnabled(has_run);
     actions_->run->setEnabled(has_video && !running);
     actions_->stop->setEnabled(running);
-    actions_->continue_run->setEnabled(session_.currentRun() && session_.canContinue(*session_.currentRun()));
+    actions_->continue_run->setEnabled(has_run && session_.canContinue(*session_.currentRun()));
     actions_->follow->setEnabled(running);
     actions_->save_as->setEnabled(has_video && !running);
     actions_->restore_state->setEnabled(!session_.project().empty());
@@ -380,6 +387,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
         });
         return;
     }
+    write_wait_.watch();
     session_.keepWritten();
     files_->rememberView();
     settings_.setGeometry(saveGeometry());
@@ -397,7 +405,12 @@ void MainWindow::closeEvent(QCloseEvent* event) {
 /// Whether what a person did last is on its way into its files still. The window closes by itself once it is there, and
 /// stays where it could not be written, so that its message is read.
 bool MainWindow::waitsForWrites() {
-    if (std::exchange(written_, false) || !write_wait_.anythingDue()) return false;
+    if (std::exchange(written_, false)) return false;
+    if (!write_wait_.anythingDue()) {
+        const bool failed = write_wait_.anythingFailed();
+        if (failed) closing_ = false;
+        return failed;
+    }
     messages_->showTopic(kClosingTopic, MessageKind::info,
                          tr("Saving your last changes. The window closes when they are stored."));
     write_wait_.begin([this](bool) {

@@ -24,6 +24,7 @@ class LiveStrip;
 class LiveWatching;
 class MessageBar;
 class OpenedFiles;
+class OverlayColumn;
 class ReviewDocks;
 class RunBar;
 class RunGuard;
@@ -108,6 +109,7 @@ class MainWindow : public QMainWindow {
     WrittenWait write_wait_;
 
     WindowActions* actions_;
+    OverlayColumn* over_canvas_;
     MessageBar* messages_;
     QStackedWidget* stack_;
     WelcomePanel* welcome_;

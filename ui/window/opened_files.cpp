@@ -25,6 +25,7 @@ namespace eyrie::ui {
 
 namespace {
 const QString kFolder = QStringLiteral("folder");
+const QString kLeavingTopic = QStringLiteral("leaving");
 
 QString text(const std::filesystem::path& path) {
     return QString::fromStdString(path.string());
@@ -125,8 +126,25 @@ void OpenedFiles::locateVideo() {
     session_.locateVideo(filesOf(paths));
 }
 
+void OpenedFiles::endWork(const QString& doing, std::function<void()> then) {
+    parts_.guard.beforeEnding(doing, [this, then = std::move(then)] {
+        leave_wait_.watch();
+        session_.keepWritten();
+        // What could not be written was told, and is to be read; asked for again, it is left.
+        if (!leave_wait_.anythingDue()) {
+            if (!leave_wait_.anythingFailed()) then();
+            return;
+        }
+        parts_.messages.showTopic(kLeavingTopic, MessageKind::info, tr("Saving your last changes first."));
+        leave_wait_.begin([this, then](bool) {
+            parts_.messages.dismissTopic(kLeavingTopic);
+            if (!leave_wait_.anythingFailed()) then();
+        });
+    });
+}
+
 void OpenedFiles::leave(std::function<void()> then) {
-    parts_.guard.beforeEnding(tr("something else is opened"), [this, then = std::move(then)] {
+    endWork(tr("something else is opened"), [this, then = std::move(then)] {
         rememberView();
         play_when_done_ = false;
         run_when_ready_ = false;
@@ -206,7 +224,7 @@ void OpenedFiles::chooseEarlierState() {
 }
 
 void OpenedFiles::restore(const std::filesystem::path& project, const ProjectBackup& backup) {
-    parts_.guard.beforeEnding(tr("an earlier state is restored"), [this, project, backup] {
+    endWork(tr("an earlier state is restored"), [this, project, backup] {
         rememberView();
         restoring_ = project;
         session_.closeProject();

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "session/background/written_wait.h"
 #include "session/project_session.h"
 #include "store/backup/project_backup.h"
 #include "window/start_options.h"
@@ -73,6 +74,8 @@ class OpenedFiles : public QObject {
     void chooseEarlierState();
     void restore(const std::filesystem::path& project, const ProjectBackup& backup);
     void leave(std::function<void()> then);
+    /// Ends what runs, and lets what people did last go into its files before `then`.
+    void endWork(const QString& doing, std::function<void()> then);
     void becameReady(bool has_results);
     void runEnded(const RunSummary& summary);
     void rememberProject();
@@ -90,6 +93,7 @@ class OpenedFiles : public QObject {
     EarlierStates* earlier_;
     QPointer<EarlierStateDialog> earlier_dialog_;  ///< while it is open
     QMenu* recent_menu_;
+    WrittenWait leave_wait_;
 };
 
 }  // namespace eyrie::ui

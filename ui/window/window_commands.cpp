@@ -23,7 +23,8 @@ namespace eyrie::ui {
 
 namespace {
 constexpr double kZoomStep = 1.25;
-}
+constexpr double kLookStep = 0.1;  ///< of the canvas
+}  // namespace
 
 WindowCommands::WindowCommands(const CommandParts& parts) : QObject(&parts.window), parts_(parts) {
     bindRun();
@@ -100,6 +101,20 @@ void WindowCommands::bindPlayback() {
 void WindowCommands::bindView() {
     const WindowActions& actions = parts_.actions;
     VideoView& canvas = parts_.canvas;
+    TimelineView& timeline = parts_.timeline;
+    const auto look = [&canvas](double right, double down) {
+        const QPointF middle(canvas.width() / 2.0, canvas.height() / 2.0);
+        const QPointF step(right * kLookStep * canvas.width(), down * kLookStep * canvas.height());
+        canvas.centreOn(canvas.transform().imageFromView(middle + step));
+    };
+    bindCommands(this, {
+                           {actions.look_left, [look] { look(-1, 0); }},
+                           {actions.look_right, [look] { look(1, 0); }},
+                           {actions.look_up, [look] { look(0, -1); }},
+                           {actions.look_down, [look] { look(0, 1); }},
+                           {actions.timeline_in, [&timeline] { timeline.zoomBy(kZoomStep); }},
+                           {actions.timeline_out, [&timeline] { timeline.zoomBy(1 / kZoomStep); }},
+                       });
     bindCommands(this, {
                            {actions.fit, [&canvas] { canvas.fit(); }},
                            {actions.one_to_one, [&canvas] { canvas.showOneToOne(); }},

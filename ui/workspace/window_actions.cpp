@@ -119,6 +119,12 @@ WindowActions::WindowActions(OverlaySettings& overlays, QWidget* parent) : QObje
     one_to_one = add(tr("Actual size (1:1)"), {"zoom-original", {QKeySequence(Qt::Key_0)}});
     zoom_in = add(tr("Zoom in"), {"zoom-in", {QKeySequence(Qt::Key_Plus), QKeySequence(Qt::Key_Equal)}});
     zoom_out = add(tr("Zoom out"), {"zoom-out", {QKeySequence(Qt::Key_Minus)}});
+    look_left = addForKeys(tr("Look further left"), {QKeySequence(tr("Alt+Left"))});
+    look_right = addForKeys(tr("Look further right"), {QKeySequence(tr("Alt+Right"))});
+    look_up = addForKeys(tr("Look further up"), {QKeySequence(tr("Alt+Up"))});
+    look_down = addForKeys(tr("Look further down"), {QKeySequence(tr("Alt+Down"))});
+    timeline_in = addForKeys(tr("Zoom into the timeline"), {QKeySequence(tr("Ctrl++")), QKeySequence(tr("Ctrl+="))});
+    timeline_out = addForKeys(tr("Zoom out of the timeline"), {QKeySequence(tr("Ctrl+-"))});
     group();
     steady = addToggle(tr("&Hold the ground still"),
                        {nullptr,
@@ -202,6 +208,7 @@ void WindowActions::group() {
 
 void WindowActions::fill(QMenu& menu, const ActionSection& section) const {
     for (QAction* action : section.actions) {
+        if (for_keys_.contains(action)) continue;
         if (group_starts_.contains(action)) menu.addSeparator();
         menu.addAction(action);
     }
@@ -223,6 +230,12 @@ QAction* WindowActions::addToggle(const QString& text, const Look& look, bool ch
     QAction* action = add(text, look);
     action->setCheckable(true);
     action->setChecked(checked);
+    return action;
+}
+
+QAction* WindowActions::addForKeys(const QString& text, const QList<QKeySequence>& shortcuts) {
+    QAction* action = add(text, {nullptr, shortcuts});
+    for_keys_.insert(action);
     return action;
 }
 

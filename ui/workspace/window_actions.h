@@ -35,8 +35,9 @@ class WindowActions : public QObject {
     QAction *run, *stop, *continue_run, *follow, *restore_run;
     QAction *play, *step_back, *step_on, *jump_back, *jump_on, *first, *last, *go_to_frame, *shuttle_back,
         *shuttle_stop, *shuttle_on, *slower, *faster, *loop, *only_moving;
-    QAction *fit, *one_to_one, *zoom_in, *zoom_out, *steady, *follow_object, *measure, *even_picture, *snapshot,
-        *snapshot_plain, *show_mosaic, *event_rows, *full_screen, *deselect;
+    QAction *fit, *one_to_one, *zoom_in, *zoom_out, *look_left, *look_right, *look_up, *look_down, *timeline_in,
+        *timeline_out, *steady, *follow_object, *measure, *even_picture, *snapshot, *snapshot_plain, *show_mosaic,
+        *event_rows, *full_screen, *deselect;
     QAction *next_error, *previous_error, *why_error, *wrong_truth, *report;
     QAction *next_event, *previous_event, *next_open_event, *relevant, *not_relevant, *unsure, *take_back, *star, *note,
         *like_track, *add_track, *join_tracks, *split_track, *reject_tracks, *remove_correction, *undo_verdict,
@@ -59,6 +60,8 @@ class WindowActions : public QObject {
     void group();
     QAction* add(const QString& text, const Look& look);
     QAction* addToggle(const QString& text, const Look& look, bool checked);
+    /// What only who has no mouse needs: it stands on the sheet of keys, not in the menu.
+    QAction* addForKeys(const QString& text, const QList<QKeySequence>& shortcuts);
     void addEvents();
     void addOverlays(OverlaySettings& overlays);
     void followOverlays(const OverlaySettings& overlays);
@@ -66,6 +69,7 @@ class WindowActions : public QObject {
     QWidget* parent_;
     QList<ActionSection> sections_;
     QSet<const QAction*> group_starts_;
+    QSet<const QAction*> for_keys_;
     bool group_begins_ = false;
 };
 

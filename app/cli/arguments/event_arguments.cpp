@@ -51,6 +51,9 @@ void EventArguments::addChoiceTo(CLI::App& command, const std::string& usual_ver
                         usual_verdicts + ")")
         ->type_name("VERDICT")
         ->delimiter(',');
+    command.add_option("--tag", tags, "Only what has one of these tags, spelled as they were given in the window")
+        ->type_name("TAG")
+        ->delimiter(',');
 }
 
 EventChoice EventArguments::choice() const {
@@ -60,6 +63,7 @@ EventChoice EventArguments::choice() const {
     for (const std::string& name : kinds) wanted.kinds.push_back(eventKindOf(name));
     wanted.judgements.reserve(verdicts.size());
     for (const std::string& name : verdicts) wanted.judgements.push_back(judgementOf(name));
+    wanted.tags = tags;
     applySettings(
         [&](ParameterVisitor& visitor) {
             wanted.options.describe(visitor);

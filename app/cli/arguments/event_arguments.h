@@ -25,6 +25,7 @@ struct EventArguments {
     std::optional<int> run;
     std::vector<std::string> kinds;
     std::vector<std::string> verdicts;
+    std::vector<std::string> tags;
     std::string zones;
     std::vector<std::string> settings;
     bool uncorrected = false;
@@ -33,7 +34,7 @@ struct EventArguments {
     void addRunTo(CLI::App& command);
     /// --zone and --set: what is an event; --uncorrected.
     void addSearchTo(CLI::App& command);
-    /// --kind and --verdict.
+    /// --kind, --verdict and --tag.
     void addChoiceTo(CLI::App& command, const std::string& usual_verdicts);
 
     /// Throws Error(parameter | input).

@@ -161,8 +161,8 @@ void addReportCommand(CLI::App& app, int& exit_code) {
     addStart(*command, arguments->start);
     arguments->outputs.addTo(*command);
     command->callback([arguments, command, &exit_code] {
-        const std::vector<const char*> of_events{"--kind", "--verdict",     "--event", "--zone",
-                                                 "--set",  "--uncorrected", "--start"};
+        const std::vector<const char*> of_events{"--kind", "--verdict", "--tag",         "--event",
+                                                 "--zone", "--set",     "--uncorrected", "--start"};
         const std::vector<const char*> of_evaluations{"--ground-truth", "--against", "--detections", "--overlap",
                                                       "--chips"};
         for (const char* option : arguments->of_events ? of_evaluations : of_events) {

@@ -18,6 +18,10 @@ bool isNoneOrAmong(const std::vector<Value>& values, const Value& value) {
     return values.empty() || std::find(values.begin(), values.end(), value) != values.end();
 }
 
+bool haveCommon(const std::vector<std::string>& some, const std::vector<std::string>& others) {
+    return std::find_first_of(some.begin(), some.end(), others.begin(), others.end()) != some.end();
+}
+
 }  // namespace
 
 const Verdict* ReviewedRun::verdictOn(std::size_t event) const {
@@ -30,7 +34,8 @@ const Verdict* ReviewedRun::verdictOnStretch(std::size_t stretch) const {
 
 bool EventChoice::wants(const std::optional<EventKind>& kind, const Verdict* verdict, int number) const {
     return (!kind || isNoneOrAmong(kinds, *kind)) && isNoneOrAmong(numbers, number) &&
-           isNoneOrAmong(judgements, verdict == nullptr ? Judgement::open : verdict->judgement);
+           isNoneOrAmong(judgements, verdict == nullptr ? Judgement::open : verdict->judgement) &&
+           (tags.empty() || (verdict != nullptr && haveCommon(tags, verdict->tags)));
 }
 
 ReviewedRun readReviewedRun(ProjectFile& project, const RunRecord& run, const EventChoice& choice) {

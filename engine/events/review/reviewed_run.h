@@ -32,6 +32,7 @@ struct EventChoice {
     std::optional<std::vector<Zone>> zones;  ///< nothing: those that the project keeps for the video
     std::vector<EventKind> kinds;            ///< none: all
     std::vector<Judgement> judgements;       ///< none: all
+    std::vector<std::string> tags;           ///< one of these at least; none: with any or without
     std::vector<int> numbers;                ///< of events, from 1, as all of the run are counted; none: all
     bool uncorrected = false;                ///< of the run's own tracks
 

@@ -111,6 +111,7 @@ std::string chosenText(const EventChoice& choice) {
         for (std::size_t i = 0; i < choice.kinds.size(); ++i)
             text += (i > 0 ? ", " : "") + std::string(nameOf(choice.kinds[i]));
     }
+    for (const std::string& tag : choice.tags) text += (&tag == &choice.tags.front() ? "; tagged " : " or ") + tag;
     return text;
 }
 

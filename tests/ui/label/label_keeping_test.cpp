@@ -1,3 +1,7 @@
+#include <QApplication>
+#include <QDragEnterEvent>
+#include <QDropEvent>
+#include <QMimeData>
 #include <QSignalSpy>
 #include <cmath>
 #include <filesystem>
@@ -7,6 +11,7 @@
 #include "ui/support/full_disk.h"
 #include "ui/support/ui_test.h"
 #include "widgets/message_bar.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui::label_keeping_test {
 
@@ -40,6 +45,60 @@ class LabelKeepingTest : public QObject, test::Labelling {
         QVERIFY(std::abs(object(*window, id).keyframes[0].box.centre.x - x + 1) < 1e-9);
         key(*window, Qt::Key_Y, Qt::ControlModifier);
         QVERIFY(std::abs(object(*window, id).keyframes[0].box.centre.x - x) < 1e-9);
+    }
+
+    void theWindowStaysUntilTrackingHasEnded() {
+        const auto window = labellingWindow(6);
+        QVERIFY(window);
+        draw(*window, {40, 60}, {58, 60});
+        const LabelActions& actions = window->labelling().actions();
+        actions.track_on->trigger();
+        QVERIFY(actions.stop_tracking->isEnabled());
+        window->close();
+        QVERIFY(window->isVisible());
+        QVERIFY(waitFor([&] { return !window->isVisible(); }));
+        QVERIFY(!actions.stop_tracking->isEnabled());
+    }
+
+    void anotherVideoIsOpenedWhenTrackingHasEnded() {
+        const auto window = labellingWindow(6);
+        QVERIFY(window);
+        const auto other = test::writeScene(home() / "others", 8);
+        draw(*window, {40, 60}, {58, 60});
+        const LabelActions& actions = window->labelling().actions();
+        bool tracks_still = false;
+        whenChanged(window->session(), window.get(),
+                    {{SessionChange::video, [&] { tracks_still = actions.stop_tracking->isEnabled(); }}});
+        actions.track_on->trigger();
+        QMimeData data;
+        data.setUrls({QUrl::fromLocalFile(QString::fromStdString(other.string()))});
+        QDragEnterEvent enter({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+        QApplication::sendEvent(window.get(), &enter);
+        QDropEvent drop({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+        QSignalSpy ready(&window->session(), &ProjectSession::ready);
+        QApplication::sendEvent(window.get(), &drop);
+        QVERIFY(!window->session().opening());
+        QVERIFY(ready.wait(test::kPatience_ms));
+        QVERIFY(!tracks_still);
+        QCOMPARE(window->session().video()->frame_count, 8);
+    }
+
+    void theWindowStaysOnceWhereWhatIsBeingWrittenCannotBeStored() {
+        const auto window = labellingWindow(6);
+        QVERIFY(window);
+        draw(*window, {40, 60}, {58, 60});
+        QTest::keyClicks(&window->labelling().inspector().notes(), QStringLiteral("white van"));
+        {
+            const test::FullDisk full;
+            window->close();
+            QVERIFY(window->isVisible());
+        }
+        const QString told = window->messages().texts().join(QLatin1Char(' '));
+        QVERIFY2(told.contains(QStringLiteral("disk")), qPrintable(told));
+        QCoreApplication::processEvents();
+        QVERIFY2(window->isVisible(), "the message is to be read");
+        window->close();
+        QVERIFY(waitFor([&] { return !window->isVisible(); }));
     }
 
     void notesThatAreBeingWrittenStayWithTheObjectOfTheProjectThatIsLeft() {

@@ -3,7 +3,9 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QTest>
+#include <vector>
 
+#include "review/card/story_sketch.h"
 #include "ui/support/ui_test.h"
 
 namespace eyrie::ui::event_card_test {
@@ -28,6 +30,36 @@ class EventCardTest : public QObject {
         card.show(subject);
         QVERIFY(card.judged().isHidden());
         QVERIFY(!card.note().isHidden());
+    }
+
+    void keysGoAlongTheSpeedAndTheWay() {
+        std::vector<StoryPoint> points(101);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            points[i].frame = 200 + static_cast<FrameIndex>(i);
+            points[i].seconds = static_cast<double>(i) / 25;
+        }
+        for (const auto kind : {StorySketch::Kind::speed, StorySketch::Kind::way}) {
+            StorySketch sketch(kind);
+            sketch.setPoints(points, {});
+            sketch.setMark(250);
+            sketch.show();
+            FrameIndex frame = 250;
+            sketch.setGoTo([&](FrameIndex asked) {
+                frame = asked;
+                sketch.setMark(asked);
+            });
+            const auto after = [&](Qt::Key key) {
+                QTest::keyClick(&sketch, key);
+                return frame;
+            };
+            QVERIFY((sketch.focusPolicy() & Qt::TabFocus) != 0);
+            QCOMPARE(after(Qt::Key_Right), 255);
+            QCOMPARE(after(Qt::Key_Left), 250);
+            QCOMPARE(after(Qt::Key_Home), 200);
+            QCOMPARE(after(Qt::Key_Left), 200);
+            QCOMPARE(after(Qt::Key_End), 300);
+            QCOMPARE(after(Qt::Key_Right), 300);
+        }
     }
 
     void whatIsBeingWrittenStaysWhileNothingElseIsStored() {

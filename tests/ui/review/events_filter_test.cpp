@@ -55,6 +55,22 @@ class EventsFilterTest : public test::ListedEvents {
         QCOMPARE(panel.headerText(), QStringLiteral("1 of 8 judged"));
     }
 
+    void whatWasTaggedIsFoundByItsTags() {
+        EventsModel model;
+        EventsPanel panel(&model, *actions_);
+        give(model, found(someEvents()));
+        verdicts_[1].tags = {"gate 3", "lorry"};
+        model.setVerdict(1, verdictAt(1));
+        panel.showCounts(0);
+        QVERIFY2(panel.table()->isColumnHidden(EventsModel::tags_column), "nobody has asked for it");
+        QCOMPARE(model.index(1, EventsModel::tags_column).data().toString(), QStringLiteral("gate 3, lorry"));
+        panel.setFilterText(QStringLiteral("lorry"));
+        QCOMPARE(panel.headerText(), QStringLiteral("0 of 8 judged · 1 of 8 shown"));
+        panel.setFilterText(QString());
+        panel.verdicts().setCurrentText(QStringLiteral("With tags"));
+        QCOMPARE(panel.headerText(), QStringLiteral("0 of 8 judged · 1 of 8 shown"));
+    }
+
     void anotherFilterBeginsAtTheFirstRowThatIsLeft() {
         std::vector<Event> events;
         for (int i = 0; i < 60; ++i)

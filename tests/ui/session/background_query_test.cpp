@@ -4,10 +4,12 @@
 #include <barrier>
 #include <future>
 #include <latch>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 
 #include "session/background/background_query.h"
+#include "session/background/due_write.h"
 #include "session/background/written_wait.h"
 #include "ui/support/ui_test.h"
 
@@ -74,12 +76,29 @@ class BackgroundQueryTest : public QObject {
             [&](const QString& message) { told << message; });
         gate.awaitTask();
         WrittenWait wait(pool);
+        wait.watch();
         QVERIFY(wait.anythingDue());
         wait.begin([&](bool all) { told << (all ? QStringLiteral("all") : QStringLiteral("too long")); });
         QVERIFY(wait.waiting());
         gate.open();
         QVERIFY(QTest::qWaitFor([&] { return !wait.waiting(); }, kPatience_ms));
         QCOMPARE(told, (QStringList{QStringLiteral("the disk is full"), QStringLiteral("all")}));
+        QVERIFY(wait.anythingFailed());
+        wait.watch();
+        QVERIFY2(!wait.anythingFailed(), "that was before");
+    }
+
+    void workThatGoesIntoAFileInTheEndIsWaitedForUntilThen() {
+        const auto pool = std::make_shared<TaskPool>();
+        const WrittenWait wait(pool);
+        std::optional<DueWrite> work(std::in_place, pool);
+        QVERIFY(wait.anythingDue());
+        {
+            const DueWrite taken_over = std::move(*work);
+            work.reset();
+            QVERIFY(wait.anythingDue());
+        }
+        QVERIFY(!wait.anythingDue());
     }
 
     void tasksAreDoneInOrderAndAwayFromTheWindow() {

@@ -1,9 +1,15 @@
 #include <fstream>
+#include <optional>
+#include <stdexcept>
 
+#include "session/background/background_query.h"
+#include "session/background/due_write.h"
 #include "session/project/project_location.h"
 #include "store/labels/annotation_store.h"
 #include "ui/session/session_support.h"
+#include "ui/support/full_disk.h"
 #include "ui/support/ui_test.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui::session_projects_test {
 
@@ -108,6 +114,58 @@ class SessionProjectsTest : public QObject {
         ProjectFile present = ProjectFile::open(other);
         QCOMPARE(RunStore(former).runs().size(), std::size_t(1));
         QCOMPARE(RunStore(present).runs().size(), std::size_t(2));
+    }
+
+    void whereTheLastChangeCannotBeStoredSaveAsStaysInTheFormerFile() {
+        const auto folder = folderWithRun();
+        ProjectSession session;
+        QVERIFY(open(session, folder));
+        BackgroundQuery last_change;
+        QObject person;
+        const auto change = [&] {
+            last_change.write([](const BackgroundTask&) { throw std::runtime_error("the disk is full"); });
+        };
+        whenChanged(session, &person, {{SessionChange::keep_written, change}});
+        QSignalSpy problem(&session, &ProjectSession::problem);
+        const auto other = *home_ / "other.eyrie";
+        session.saveProjectAs(other);
+        QVERIFY(problem.wait(kPatience_ms));
+        QVERIFY(problem.last().front().toString().contains(QStringLiteral("could not be stored")));
+        QCOMPARE(session.project(), project());
+        QVERIFY(waitFor([&] { return session.runData() != nullptr; }));
+        QVERIFY(listsAreOpen(session));
+        for (const auto& entry : std::filesystem::directory_iterator(other.parent_path()))
+            QVERIFY(!entry.path().filename().string().starts_with("other"));
+    }
+
+    void whatIsAtWorkIsWaitedForBeforeTheProjectIsSavedUnderAnotherName() {
+        const auto folder = folderWithRun();
+        ProjectSession session;
+        QVERIFY(open(session, folder));
+        std::optional<DueWrite> work(std::in_place);
+        QObject person;
+        bool asked_to_end = false;
+        whenChanged(session, &person, {{SessionChange::keep_written, [&] { asked_to_end = true; }}});
+        const auto other = *home_ / "other.eyrie";
+        session.saveProjectAs(other);
+        QVERIFY(waitFor([&] { return asked_to_end; }));
+        QCOMPARE(session.project(), project());  // what comes of it can be stored there
+        work.reset();
+        QVERIFY(waitFor([&] { return session.project() == other; }));
+    }
+
+    void whoWaitsForWritesHearsOfWhatTheProjectDidNotTake() {
+        const auto folder = folderWithRun();
+        ProjectSession session;
+        QVERIFY(open(session, folder));
+        WrittenWait wait;
+        wait.watch();
+        {
+            const test::FullDisk full;
+            session.renameRun(session.runs().front().id, QStringLiteral("not to be stored"));
+            QVERIFY(waitFor([&] { return !wait.anythingDue(); }));
+        }
+        QVERIFY(wait.anythingFailed());
     }
 
     void whatWasDoneLastIsKeptWhenAllIsClosedAtOnce() {

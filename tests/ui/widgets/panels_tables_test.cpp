@@ -2,12 +2,14 @@
 #include <QHeaderView>
 #include <QHelpEvent>
 #include <QLineEdit>
+#include <QMenu>
 #include <QPushButton>
 #include <QSignalSpy>
 #include <QSlider>
 #include <QStandardItemModel>
 #include <QTableView>
 #include <QTest>
+#include <QTimer>
 #include <QToolTip>
 #include <memory>
 
@@ -321,6 +323,44 @@ class TablesTest : public QObject {
         panel.selectId(2);
         QTest::keyClick(panel.table(), Qt::Key_C, Qt::ControlModifier);
         QCOMPARE(QApplication::clipboard()->text(), QStringLiteral("First\tLast\tId\n20\t69\t2\n"));
+    }
+
+    void columnsAndOrderAreInTheMenuOfARowToo() {
+        TracksModel model;
+        TracksPanel panel(&model);
+        model.setTracks(several(3, sampleTrack), {});
+        panel.show();
+        const auto choose = [&panel](const QString& of_menu, const QString& entry) {
+            bool chosen = false;
+            QTimer::singleShot(0, &panel, [&] {
+                auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+                if (menu == nullptr) return;
+                for (const QAction* each : menu->actions()) {
+                    if (each->menu() == nullptr || each->text() != of_menu) continue;
+                    for (QAction* action : each->menu()->actions()) {
+                        if (chosen || action->text() != entry) continue;
+                        chosen = true;
+                        action->trigger();
+                    }
+                }
+                menu->close();
+            });
+            emit panel.table()->customContextMenuRequested({});
+            return chosen;
+        };
+        const auto* header = panel.table()->horizontalHeader();
+        const int column = TracksModel::first_column;
+        const QString title = model.headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
+        QVERIFY(choose(QStringLiteral("Columns"), title));
+        QVERIFY(panel.table()->isColumnHidden(column));
+        QVERIFY(choose(QStringLiteral("Columns"), title));
+        QVERIFY(!panel.table()->isColumnHidden(column));
+        QVERIFY(choose(QStringLiteral("Order by"), title));
+        QCOMPARE(header->sortIndicatorSection(), column);
+        QCOMPARE(header->sortIndicatorOrder(), Qt::AscendingOrder);
+        QVERIFY(choose(QStringLiteral("Order by"), title + QStringLiteral("  ↑")));
+        QCOMPARE(header->sortIndicatorOrder(), Qt::DescendingOrder);
+        QCOMPARE(panel.table()->model()->index(0, TracksModel::id_column).data().toInt(), 3);
     }
 
     void columnsAreRemembered() {

@@ -229,6 +229,21 @@ class CorrectingWindowTest : public QObject {
         for (const TrackSummary& track : tracks(*window)) QVERIFY(!track.corrected);
     }
 
+    void theWindowStaysUntilAVehicleThatIsFollowedIsKept() {
+        const auto window = windowWithRun();
+        QVERIFY(window);
+        const TrackSummary track = longest(*window);
+        const FrameIndex middle = (track.first_frame + track.last_frame) / 2;
+        QVERIFY(goTo(*window, middle));
+        QTest::keyClick(&window->canvas(), Qt::Key_Insert);
+        drag(*window, {{12, 12}, 16, 10, 0});  // nothing is there
+        QVERIFY(window->events().correcting().working());
+        window->close();
+        QVERIFY(window->isVisible());
+        QVERIFY(QTest::qWaitFor([&] { return !window->isVisible(); }, kPatience_ms));
+        QVERIFY(!window->events().correcting().working());
+    }
+
     void whileAVehicleIsFollowedItIsSaidHowLongItMayStillTake() {
         QCOMPARE(TrackCorrecting::followingText({212, false, 30, 90}, 4.2),
                  tr("Following the vehicle forwards: frame 212, at most 0:05 left."));

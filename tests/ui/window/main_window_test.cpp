@@ -23,6 +23,8 @@
 #include "canvas/layers/zone_layer.h"
 #include "canvas/timeline/timeline_view.h"
 #include "canvas/video_view.h"
+#include "label/label_actions.h"
+#include "label/label_workspace.h"
 #include "tune/inspect/inspection.h"
 #include "tune/inspect/motion_statistics_panel.h"
 #include "tune/inspect/stacks_panel.h"
@@ -85,6 +87,32 @@ class MainWindowTest : public QObject {
         for (const auto* button : window.findChildren<QAbstractButton*>())
             offers_demo = offers_demo || (button->isVisible() && button->text().contains(QStringLiteral("demo")));
         QVERIFY(offers_demo);
+    }
+
+    void withoutAVideoOnlyWhatNeedsNoneIsOffered() {
+        MainWindow window;
+        window.show();
+        const WindowActions& actions = window.actions();
+        for (const QAction* action :
+             {actions.open_video, actions.open_folder, actions.watch_live, actions.open_project, actions.demo,
+              actions.your_name, actions.keys, actions.workspaceAction(WorkspaceKind::label)})
+            QVERIFY2(action->isEnabled(), qPrintable(action->text()));
+        for (const QAction* action : {actions.save_as,       actions.save_copy,     actions.restore_state,
+                                      actions.start_time,    actions.export_tracks, actions.report,
+                                      actions.continue_run,  actions.play,          actions.step_on,
+                                      actions.only_moving,   actions.fit,           actions.steady,
+                                      actions.follow_object, actions.measure,       actions.snapshot,
+                                      actions.why,           actions.compare,       actions.next_event,
+                                      actions.relevant,      actions.like_track,    actions.add_track,
+                                      actions.split_track,   actions.undo_verdict,  actions.clip_event,
+                                      actions.bookmark,      actions.draw_zone,     actions.control_points,
+                                      actions.next_error,    actions.wrong_truth})
+            QVERIFY2(!action->isEnabled(), qPrintable(action->text()));
+        actions.workspaceAction(WorkspaceKind::label)->trigger();
+        const LabelActions& label = window.labelling().actions();
+        for (const QAction* action : {label.draw, label.region_begins, label.next_object, label.next_attention,
+                                      label.proposals, label.next_frame, label.import_labels, label.track_on})
+            QVERIFY2(!action->isEnabled(), qPrintable(action->text()));
     }
 
     void opensAFolderOfImagesRunsItAndStepsWithTheKeys() {

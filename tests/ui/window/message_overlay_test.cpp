@@ -1,11 +1,15 @@
 #include <QTest>
 #include <QToolButton>
 
+#include "canvas/drawing/mark_colours.h"
 #include "canvas/video_view.h"
+#include "label/computing/tracking_strip.h"
+#include "tune/compare/preview_bar.h"
 #include "ui/support/ui_support.h"
 #include "ui/support/ui_test.h"
 #include "ui/window/shown_window.h"
 #include "widgets/message_bar.h"
+#include "window/docks/tuning.h"
 #include "window/main_window.h"
 
 namespace eyrie::ui::message_overlay_test {
@@ -61,6 +65,55 @@ class MessageOverlayTest : public QObject {
         QCOMPARE(in_the_middle, static_cast<QWidget*>(&canvas));
         const QPoint on_a_message = onScreen(messages).topLeft() + QPoint(messages.width() / 2, one / 2);
         QVERIFY(messages.isAncestorOf(window->childAt(window->mapFromGlobal(on_a_message))));
+    }
+
+    void whatIsWorkedWithForAWhileMovesNothingEither() {
+        const auto window = windowWithVideo();
+        QVERIFY(window);
+        QVERIFY(settled(*window));
+        window->messages().dismissAll();
+        QCoreApplication::processEvents();
+        const QRect picture = onScreen(window->canvas());
+        auto* tracking = window->findChild<TrackingStrip*>();
+        PreviewBar& preview = window->tuning().previewBar();
+        tracking->showAdvance({QStringLiteral("car 1"), 2, 2, 4, 1});
+        preview.show();
+        const auto lies_over_the_picture = [&](const QWidget& bar) {
+            return bar.isVisible() && bar.height() > 0 && picture.contains(onScreen(bar));
+        };
+        QTRY_VERIFY_WITH_TIMEOUT(lies_over_the_picture(*tracking) && lies_over_the_picture(preview), kPatience_ms);
+        QVERIFY(!onScreen(*tracking).intersects(onScreen(preview)));
+        QCOMPARE(onScreen(window->canvas()), picture);
+        // A message comes below: the buttons stay where they are.
+        const QRect before = onScreen(preview);
+        window->messages().showMessage(MessageKind::error, QStringLiteral("cannot read a.mp4"));
+        QTRY_VERIFY_WITH_TIMEOUT(onScreen(window->messages()).top() > before.bottom(), kPatience_ms);
+        QCOMPARE(onScreen(preview), before);
+    }
+
+    void whatStandsOnThePictureIsNotCovered() {
+        const auto window = windowWithVideo();
+        QVERIFY(window);
+        QVERIFY(settled(*window));
+        window->messages().dismissAll();
+        QCoreApplication::processEvents();
+        VideoView& canvas = window->canvas();
+        canvas.setBadge(QStringLiteral("Preview"));
+        const auto top_of_badge = [&] {
+            const QImage picture = canvas.picture();
+            for (int y = 0; y < picture.height(); ++y)
+                for (int x = 0; x < picture.width() / 4; ++x)
+                    if (picture.pixelColor(x, y) == toolColour())
+                        return static_cast<int>(y / picture.devicePixelRatio());
+            return -1;
+        };
+        const int alone = top_of_badge();
+        QVERIFY(alone >= 0 && alone < 20);
+        window->messages().showMessage(MessageKind::error, QStringLiteral("cannot read a.mp4"));
+        const auto covered = [&] { return onScreen(window->messages()).bottom() - onScreen(canvas).top(); };
+        QTRY_VERIFY_WITH_TIMEOUT(window->messages().height() > 10 && top_of_badge() > covered(), kPatience_ms);
+        window->messages().dismissAll();
+        QTRY_COMPARE_WITH_TIMEOUT(top_of_badge(), alone, kPatience_ms);
     }
 
     void aMessageIsClosedWithKeys() {

@@ -2,9 +2,11 @@
 #include <QFileDialog>
 #include <QLineEdit>
 #include <QListWidget>
+#include <QMenu>
 #include <QSlider>
 #include <QTest>
 #include <QTimer>
+#include <QWidgetAction>
 #include <cmath>
 
 #include "canvas/timeline/timeline_view.h"
@@ -271,6 +273,14 @@ class WatchingTest : public QObject {
         QVERIFY(window().session().pictureLook().even);
         button->reset();
         QVERIFY(window().session().pictureLook().plain());
+        // Tab leads to the button, and from entry to entry of its menu.
+        QVERIFY((button->focusPolicy() & Qt::TabFocus) != 0);
+        QList<QWidget*> reached;
+        for (QAction* action : button->menu()->actions())
+            if (const auto* entry = qobject_cast<QWidgetAction*>(action);
+                entry != nullptr && (entry->defaultWidget()->focusPolicy() & Qt::TabFocus) != 0)
+                reached << entry->defaultWidget()->focusProxy();
+        QCOMPARE(reached, (QList<QWidget*>{button->brightness(), button->contrast()}));
     }
 
     void whatIsSeenIsSavedAndNeverOverAProject() {

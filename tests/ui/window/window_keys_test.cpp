@@ -1,14 +1,18 @@
+#include <QLineEdit>
 #include <QMap>
+#include <QMenu>
 #include <QMenuBar>
 #include <QSet>
 #include <QSettings>
 #include <QTest>
 #include <QTreeWidget>
+#include <cmath>
 
 #include "canvas/layers/stages/cluster_layer.h"
 #include "canvas/layers/stages/corner_layer.h"
 #include "canvas/layers/stages/detection_layer.h"
 #include "canvas/layers/track_layer.h"
+#include "canvas/timeline/timeline_view.h"
 #include "canvas/video_view.h"
 #include "label/label_actions.h"
 #include "label/label_workspace.h"
@@ -164,6 +168,47 @@ class WindowKeysTest : public QObject {
         QCOMPARE(window->session().playback().speed(), speed);
         QTest::keyClick(&window->canvas(), Qt::Key_Space, Qt::ShiftModifier);
         QVERIFY(window->actions().loop->isChecked());
+    }
+
+    void keysMoveThePictureAndZoomTheTimeline() {
+        const auto window = shownWindow();
+        QVERIFY(window);
+        ProjectSession& session = window->session();
+        session.openMedia(test::sceneUnderTest(2000));
+        VideoView& canvas = window->canvas();
+        const auto is_open = [&] {
+            return !session.project().empty() && !session.opening() && !canvas.frame().image.isNull();
+        };
+        QVERIFY(QTest::qWaitFor(is_open, kPatience_ms));
+        canvas.setFocus();
+        for (int i = 0; i < 4; ++i) QTest::keyClick(&canvas, Qt::Key_Plus);
+        const auto middle = [&] {
+            return canvas.transform().imageFromView({canvas.width() / 2.0, canvas.height() / 2.0});
+        };
+        const QPointF before = middle();
+        QTest::keyClick(&canvas, Qt::Key_Right, Qt::AltModifier);
+        QVERIFY(middle().x() > before.x() + 1 && std::abs(middle().y() - before.y()) < 0.01);
+        QTest::keyClick(&canvas, Qt::Key_Left, Qt::AltModifier);
+        QTest::keyClick(&canvas, Qt::Key_Down, Qt::AltModifier);
+        QVERIFY(middle().y() > before.y() + 1 && std::abs(middle().x() - before.x()) < 0.01);
+        QTest::keyClick(&canvas, Qt::Key_Up, Qt::AltModifier);
+        QVERIFY(std::abs(middle().y() - before.y()) < 0.01);
+        QCOMPARE(session.currentFrame(), 0);
+
+        const TimelineAxis& axis = window->timeline().axis();
+        QVERIFY(axis.showsAll());
+        session.goToFrame(1000);
+        QTest::keyClick(&canvas, Qt::Key_Plus, Qt::ControlModifier);
+        QVERIFY(!axis.showsAll());
+        QVERIFY(axis.firstVisible() < 1000 && axis.lastVisible() > 1000);
+        QTest::keyClick(&canvas, Qt::Key_Minus, Qt::ControlModifier);
+        QVERIFY(axis.showsAll());
+        // They stand on the sheet of keys; menus are for who has a mouse.
+        for (const ActionSection& section : window->actions().sections()) {
+            QMenu menu;
+            window->actions().fill(menu, section);
+            QVERIFY(!menu.actions().contains(window->actions().look_left));
+        }
     }
 
     void theSheetOfKeysIsSearchedByCommandAndKey() {

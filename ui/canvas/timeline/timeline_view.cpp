@@ -205,6 +205,12 @@ void TimelineView::showAll() {
     update();
 }
 
+void TimelineView::zoomBy(double factor) {
+    axis_.reveal(current_);
+    axis_.zoomAround(axis_.centreOf(current_), factor);
+    update();
+}
+
 void TimelineView::showAround(FrameIndex first, FrameIndex last, std::int64_t margin_us) {
     if (times_us_.empty()) return;
     const auto end = static_cast<FrameIndex>(times_us_.size()) - 1;

@@ -73,6 +73,8 @@ class TimelineView : public QWidget {
     FrameIndex currentFrame() const { return current_; }
     const TimelineAxis& axis() const { return axis_; }
     void showAll();
+    /// Around the current frame.
+    void zoomBy(double factor);
     /// Zooms to these frames with so much time of the video before and after them.
     void showAround(FrameIndex first, FrameIndex last, std::int64_t margin_us);
 

@@ -9,6 +9,7 @@
 #include "annotation/review/proposals.h"
 #include "session/background/lru_cache.h"
 #include "session/project/media.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
@@ -40,6 +41,7 @@ LabelFitting::LabelFitting(ProjectSession& session, LabelSession& labels, std::f
                            QObject* parent)
     : QObject(parent), session_(session), labels_(labels), working_changed_(std::move(working_changed)) {
     connect(&labels_, &LabelSession::closed, this, &LabelFitting::stop);
+    whenChanged(session_, this, {{SessionChange::keep_written, [this] { stop(); }}});
 }
 
 void LabelFitting::start() {
@@ -54,7 +56,7 @@ void LabelFitting::start() {
                "right; the others follow."));
         return;
     }
-    working_ = true;
+    working_.emplace();
     const auto work = [this, objects = std::move(objects), media = *session_.media(),
                        camera = labels_.sharedCamera()](const BackgroundTask& task) {
         std::vector<Fitted> fitted;
@@ -78,7 +80,7 @@ void LabelFitting::start() {
 }
 
 void LabelFitting::take(const std::vector<Fitted>& fitted, const QString& failure) {
-    working_ = false;
+    const auto due = std::exchange(working_, std::nullopt);  // until it is in the labels
     working_changed_();
     if (!failure.isEmpty()) emit labels_.problem(failure);
     std::vector<LabelledObject> changed;

@@ -2,11 +2,13 @@
 
 #include <QObject>
 #include <functional>
+#include <optional>
 #include <stop_token>
 #include <vector>
 
 #include "annotation/pictures/trajectory_refinement.h"
 #include "label/label_session.h"
+#include "session/background/due_write.h"
 
 namespace eyrie::ui {
 
@@ -22,7 +24,7 @@ class LabelFitting : public QObject {
     void start();
     /// What is done by then is taken.
     void stop() { fitting_.request_stop(); }
-    bool working() const { return working_; }
+    bool working() const { return working_.has_value(); }
 
  private:
     struct Fitted {
@@ -34,7 +36,7 @@ class LabelFitting : public QObject {
     ProjectSession& session_;
     LabelSession& labels_;
     std::function<void()> working_changed_;
-    bool working_ = false;
+    std::optional<DueWrite> working_;
     std::stop_source fitting_;
     BackgroundQuery query_;  ///< last: stops before the rest goes
 };

@@ -12,6 +12,7 @@
 #include "label/editor/label_editor.h"
 #include "session/background/pace.h"
 #include "session/project/media.h"
+#include "widgets/wiring.h"
 
 namespace eyrie::ui {
 
@@ -23,6 +24,7 @@ LabelTracking::LabelTracking(ProjectSession& session, LabelSession& labels, Labe
                              QObject* parent)
     : QObject(parent), session_(session), labels_(labels), answers_(std::move(answers)) {
     connect(&labels_, &LabelSession::closed, this, &LabelTracking::stop);
+    whenChanged(session_, this, {{SessionChange::keep_written, [this] { stop(); }}});
 }
 
 void LabelTracking::start(int direction) {
@@ -39,14 +41,14 @@ void LabelTracking::start(int direction) {
         answers_.show_end(from, tr("Nothing to track: there is no frame between this keyframe and the next one."));
         return;
     }
-    working_ = true;
+    working_.emplace();
     // Other labels may be open by the time it ends; they have objects of these numbers, too.
     const auto of_these = [this, project = labels_.projectPath(), video = labels_.sequence().path] {
         return labels_.projectPath() == project && labels_.sequence().path == video;
     };
     const auto ended_with = [this, of_these, id = object->id, from, box = *box](const FollowResult& result,
                                                                                 const QString& failure) {
-        working_ = false;
+        const auto due = std::exchange(working_, std::nullopt);  // until it is in the labels
         answers_.working_changed();
         if (!of_these()) return;
         if (!failure.isEmpty()) emit labels_.problem(failure);

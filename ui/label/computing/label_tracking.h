@@ -2,10 +2,12 @@
 
 #include <QObject>
 #include <functional>
+#include <optional>
 #include <stop_token>
 
 #include "annotation/pictures/box_tracker.h"
 #include "label/label_session.h"
+#include "session/background/due_write.h"
 
 namespace eyrie::ui {
 
@@ -28,7 +30,8 @@ struct LabelTrackingAnswers {
 };
 
 /// Follows the selected box through the pictures, forward or backward, until it gets unsure; then takes what was sure
-/// over as few keyframes, in one step to undo. Keyframes that are there already end it and are never changed.
+/// over as few keyframes, in one step to undo. Keyframes that are there already end it and are never changed. When the
+/// window closes, or another video is opened, it ends with what is sure by then, which is waited for.
 class LabelTracking : public QObject {
     Q_OBJECT
 
@@ -41,7 +44,7 @@ class LabelTracking : public QObject {
     void start(int direction);
     /// What is sure by then is taken.
     void stop() { tracking_.request_stop(); }
-    bool working() const { return working_; }
+    bool working() const { return working_.has_value(); }
 
  private:
     void take(ObjectId id, FrameIndex start, const OrientedBox& box, const FollowResult& result);
@@ -49,7 +52,7 @@ class LabelTracking : public QObject {
     ProjectSession& session_;
     LabelSession& labels_;
     LabelTrackingAnswers answers_;
-    bool working_ = false;
+    std::optional<DueWrite> working_;
     std::stop_source tracking_;
     BackgroundQuery query_;  ///< last: stops before the rest goes
 };

@@ -12,6 +12,7 @@
 namespace eyrie::ui {
 
 TrackingStrip::TrackingStrip(std::function<void()> stop, QWidget* parent) : QWidget(parent) {
+    setAutoFillBackground(true);  // it lies over the picture
     text_ = new QLabel;
     bar_ = new QProgressBar;
     bar_->setTextVisible(false);

@@ -1,10 +1,12 @@
 #include "review/card/story_sketch.h"
 
+#include <QKeyEvent>
 #include <QMouseEvent>
 #include <QPainter>
 #include <algorithm>
 #include <cmath>
 
+#include "widgets/charts/focus_ring.h"
 #include "widgets/display_text.h"
 #include "widgets/theme_colours.h"
 
@@ -14,12 +16,15 @@ namespace {
 
 constexpr double kSketchMargin = 6;
 constexpr double kWayPerLine = 1.2;
+constexpr std::size_t kKeySteps = 20;  ///< of arrow keys, from one end to the other
 const QColor kSketchMark(255, 170, 30);
 
 }  // namespace
 
 StorySketch::StorySketch(Kind kind, QWidget* parent) : QWidget(parent), kind_(kind) {
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
+    setFocusPolicy(Qt::TabFocus);  // a click leaves the focus with the list that one goes through
+    new FocusRing(*this);
     setAccessibleName(kind == Kind::speed ? tr("Speed over time") : tr("Path over the ground"));
     setToolTip(kind == Kind::speed
                    ? tr("Speed over time; click to go there")
@@ -104,6 +109,48 @@ void StorySketch::mousePressEvent(QMouseEvent* event) {
     if (at >= 0) go_to_(points_[static_cast<std::size_t>(at)].frame);
 }
 
+std::size_t StorySketch::markedPoint() const {
+    const auto at = std::min_element(points_.begin(), points_.end(), [this](const auto& a, const auto& b) {
+        return std::abs(a.frame - mark_) < std::abs(b.frame - mark_);
+    });
+    return static_cast<std::size_t>(at - points_.begin());
+}
+
+std::optional<std::size_t> StorySketch::pointAfter(const QKeyEvent& key) const {
+    if (points_.empty() || key.modifiers() & ~Qt::KeypadModifier) return std::nullopt;
+    const std::size_t last = points_.size() - 1;
+    const std::size_t step = std::max<std::size_t>(1, points_.size() / kKeySteps);
+    const std::size_t now = markedPoint();
+    switch (key.key()) {
+        case Qt::Key_Left:
+            return now > step ? now - step : 0;
+        case Qt::Key_Right:
+            return std::min(now + step, last);
+        case Qt::Key_Home:
+            return 0;
+        case Qt::Key_End:
+            return last;
+        default:
+            return std::nullopt;
+    }
+}
+
+bool StorySketch::event(QEvent* event) {
+    // These keys go through the video otherwise.
+    if (event->type() == QEvent::ShortcutOverride && pointAfter(*static_cast<QKeyEvent*>(event))) {
+        event->accept();
+        return true;
+    }
+    return QWidget::event(event);
+}
+
+void StorySketch::keyPressEvent(QKeyEvent* event) {
+    if (const auto point = pointAfter(*event))
+        go_to_(points_[*point].frame);
+    else
+        QWidget::keyPressEvent(event);
+}
+
 void StorySketch::paintEvent(QPaintEvent*) {
     QPainter painter(this);
     painter.setRenderHint(QPainter::Antialiasing);
@@ -120,11 +167,8 @@ void StorySketch::paintEvent(QPaintEvent*) {
         painter.setBrush(palette().window().color());
         painter.drawEllipse(shown.front(), 3, 3);
     }
-    const auto at = std::min_element(points_.begin(), points_.end(), [&](const auto& a, const auto& b) {
-        return std::abs(a.frame - mark_) < std::abs(b.frame - mark_);
-    });
     if (mark_ >= points_.front().frame && mark_ <= points_.back().frame) {
-        const QPointF mark = shown[static_cast<int>(at - points_.begin())];
+        const QPointF mark = shown[static_cast<int>(markedPoint())];
         painter.setPen(QPen(kSketchMark, 1.4));
         if (kind_ == Kind::speed)
             painter.drawLine(QPointF(mark.x(), 2 + figureHeight()), QPointF(mark.x(), height() - 2));

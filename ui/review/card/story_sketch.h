@@ -1,7 +1,9 @@
 #pragma once
 
 #include <QWidget>
+#include <cstddef>
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -11,7 +13,7 @@
 namespace eyrie::ui {
 
 /// Draws one view of a vehicle's story, small: how fast it was over time, or which way it drove over the ground. A mark
-/// stands at one moment. A click tells the frame there.
+/// stands at one moment. A click tells the frame there; so do the arrow keys, Home and End, which move the mark.
 class StorySketch : public QWidget {
     Q_OBJECT
 
@@ -34,8 +36,14 @@ class StorySketch : public QWidget {
  protected:
     void paintEvent(QPaintEvent* event) override;
     void mousePressEvent(QMouseEvent* event) override;
+    bool event(QEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;
 
  private:
+    /// The point to which a key moves the mark; nothing: it does not.
+    std::optional<std::size_t> pointAfter(const QKeyEvent& key) const;
+    /// The point of the mark, or the one next to it in time.
+    std::size_t markedPoint() const;
     /// What the figure takes at the top, px; 0 where there is too little room for both.
     double figureHeight() const;
     /// Where the points lie in the widget.

@@ -58,6 +58,7 @@ TrackCorrecting::TrackCorrecting(const CorrectingParts& parts, QObject* parent)
                          enableActions();
                      }},
                     {{SessionChange::run_data, SessionChange::frame}, [this] { enableActions(); }},
+                    {SessionChange::keep_written, [this] { following_.request_stop(); }},
                     {{SessionChange::video, SessionChange::current_run},
                      [this] {
                          tool_->cancel();
@@ -131,7 +132,7 @@ bool TrackCorrecting::areSeveralChosen() const {
 void TrackCorrecting::attempt(const QString& step, const MakeCorrections& make, const Kept& kept, std::size_t most) {
     const auto& data = parts_.session.runData();
     if (working_ || !data) return;
-    working_ = true;
+    working_.emplace();
     enableActions();
     std::vector<int> numbers(most);
     for (int& number : numbers) number = parts_.review.newCorrectionId();
@@ -140,7 +141,7 @@ void TrackCorrecting::attempt(const QString& step, const MakeCorrections& make, 
     const auto work = [this, step, make, kept, numbers, tried_on](const BackgroundTask& task) {
         const auto tried = std::make_shared<const TriedCorrections>(tryCorrections(tried_on, make, numbers, task));
         task.tell([this, step, tried, kept, project = tried_on.project, run_id = tried_on.run.id] {
-            working_ = false;
+            const auto due = std::exchange(working_, std::nullopt);  // until it is stored
             enableActions();
             // While it was tried, another run or project may have been chosen.
             if (parts_.session.project() == project && parts_.session.currentRun() == run_id)
@@ -148,7 +149,7 @@ void TrackCorrecting::attempt(const QString& step, const MakeCorrections& make, 
         });
     };
     following_ = query_.post(work, [this](const QString& failure) {
-        working_ = false;
+        working_.reset();
         enableActions();
         warn(capitalised(failure));
     });

@@ -11,6 +11,7 @@
 #include "correction/drawn_vehicle.h"
 #include "review/correct/correction_trial.h"
 #include "session/background/background_query.h"
+#include "session/background/due_write.h"
 
 namespace eyrie::ui {
 
@@ -32,7 +33,8 @@ struct CorrectingParts {
 };
 
 /// Tracks added, joined, split and rejected by hand. What is asked for is tried on the run that is shown, in the
-/// background, and kept if something comes of it; it can be undone as verdicts are.
+/// background, and kept if something comes of it; it can be undone as verdicts are. When the window closes, or another
+/// video is opened, a vehicle is followed no further, and what was found of it is waited for and kept.
 class TrackCorrecting : public QObject {
     Q_OBJECT
 
@@ -48,7 +50,7 @@ class TrackCorrecting : public QObject {
     /// To be called when verdicts were read or changed.
     void enableActions();
     /// Whether something is tried or followed now.
-    bool working() const { return working_; }
+    bool working() const { return working_.has_value(); }
     /// "Following the vehicle forwards: frame 212, at most 0:05 left."
     static QString followingText(const DrawnVehicleAdvance& advance, double seconds_left);
 
@@ -79,7 +81,7 @@ class TrackCorrecting : public QObject {
     VehicleBoxTool* tool_;
     QPointer<const TracksPanel> list_;
     bool active_ = true;
-    bool working_ = false;
+    std::optional<DueWrite> working_;
     std::optional<TrackId> join_with_;  ///< waits for the other one to be selected
     std::stop_source following_;
     BackgroundQuery query_;  ///< last: stops before the rest goes

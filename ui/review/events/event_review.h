@@ -2,6 +2,7 @@
 
 #include <QObject>
 #include <chrono>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -150,6 +151,8 @@ class EventReview : public QObject {
     bool mayWrite();
     bool mayJudge();
     bool applyStep(const std::function<ReviewEdit()>& step);
+    /// Tells it, also whoever is about to close the window.
+    void notStored(const std::exception& error);
     void useOtherCorrections();
     bool apply(const ReviewEdit& edit, const std::vector<std::size_t>& positions);
     std::vector<Judged> judgedAt(const std::vector<std::size_t>& positions) const;

@@ -76,12 +76,17 @@ Judge EventReview::whoJudges() const {
     return {personName().toStdString(), nowUtc()};
 }
 
+void EventReview::notStored(const std::exception& error) {
+    TaskPool::common()->countFailedWrite();
+    answers_.tell_problem(QString::fromUtf8(error.what()));
+}
+
 bool EventReview::apply(const ReviewEdit& edit, const std::vector<std::size_t>& positions) {
     if (edit.empty()) return false;
     try {
         store_->apply(edit);
     } catch (const std::exception& error) {
-        answers_.tell_problem(QString::fromUtf8(error.what()));
+        notStored(error);
         return false;
     }
     // New verdicts come in the order of what was judged.
@@ -235,10 +240,10 @@ bool EventReview::applyStep(const std::function<ReviewEdit()>& step) {
         store_->apply(edit);
     } catch (const Error& error) {
         const QString text = QString::fromUtf8(error.what());
-        error.kind() == ErrorKind::parameter ? answers_.tell_notice(text) : answers_.tell_problem(text);
+        error.kind() == ErrorKind::parameter ? answers_.tell_notice(text) : notStored(error);
         return false;
     } catch (const std::exception& error) {
-        answers_.tell_problem(QString::fromUtf8(error.what()));
+        notStored(error);
         return false;
     }
     answers_.show_zones();

@@ -21,12 +21,12 @@ void takeOver(EventEntry& entry, const Verdict* verdict) {
     entry.note = verdict != nullptr ? QString::fromStdString(verdict->note) : QString();
     entry.person = verdict != nullptr ? QString::fromStdString(verdict->person) : QString();
     entry.judged_utc = verdict != nullptr ? verdict->when_utc : std::string();
-    entry.tagged = verdict != nullptr && !verdict->tags.empty();
+    entry.tags = verdict != nullptr ? QString::fromStdString(tagText(verdict->tags)) : QString();
 }
 
 /// Whether nothing would be lost in the row of the other.
 bool saysNoMore(const EventEntry& entry, const EventEntry& other) {
-    return entry.judgement == other.judgement && !entry.starred && !entry.tagged && entry.note.isEmpty();
+    return entry.judgement == other.judgement && !entry.starred && entry.tags.isEmpty() && entry.note.isEmpty();
 }
 
 }  // namespace
@@ -36,7 +36,7 @@ void EventsModel::setEvents(const std::shared_ptr<const FoundEvents>& found,
     std::vector<EventEntry> entries;
     const std::vector<int> ids = found ? idsOf(*found) : std::vector<int>();
     for (std::size_t i = 0; i < ids.size(); ++i) {
-        entries.push_back({ids[i], i, Judgement::open, false, {}, {}, {}, false, {}, {}});
+        entries.push_back({ids[i], i, Judgement::open, false, {}, {}, {}, {}, {}, {}});
         takeOver(entries.back(), verdict_at(i));
     }
     const bool known_before = scale().gsd_known;
@@ -149,7 +149,7 @@ QVariant EventsModel::data(const QModelIndex& index, int role) const {
             if (column != kind_column) return {};
             return judgedKindPlate(entry->judgement, listedKindAt(*found_, entry->position), dark_);
         case Qt::TextAlignmentRole:
-            return column == kind_column || column == verdict_column || column == note_column
+            return column == kind_column || column == verdict_column || column == note_column || column == tags_column
                        ? QVariant()
                        : QVariant(Qt::AlignRight | Qt::AlignVCenter);
         case sort_role:
@@ -208,6 +208,8 @@ QString EventsModel::textOf(const EventEntry& entry, int column) const {
             return judgementText(entry.judgement);
         case note_column:
             return entry.note;
+        case tags_column:
+            return entry.tags;
         case duration_column: {
             const auto seconds = secondsOf(entry);
             return seconds ? durationText(*seconds) : QString();
@@ -276,6 +278,8 @@ QString EventsModel::helpOf(int column) const {
             return tr("Highest speed of its tracks over the ground while it lasts, in %1; empty for tracks followed "
                       "too shortly to tell")
                 .arg(speedUnit(scale()));
+        case tags_column:
+            return tr("Tags, as written on the card");
         case picture_column:
             return tr("The vehicle at the frame to look at, heading to the right");
         default:
@@ -310,6 +314,8 @@ QVariant EventsModel::headerData(int section, Qt::Orientation orientation, int r
             return tr("Highest (%1)").arg(speedUnit(scale()));
         case picture_column:
             return tr("Picture");
+        case tags_column:
+            return tr("Tags");
         default:
             return {};
     }

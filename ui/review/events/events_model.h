@@ -23,9 +23,9 @@ struct EventEntry {
     Judgement judgement = Judgement::open;
     bool starred = false;
     QString note;
-    QString person;          ///< who said it last; empty: nobody, or nobody knows
-    std::string judged_utc;  ///< and when, ISO 8601
-    bool tagged = false;
+    QString person;                             ///< who said it last; empty: nobody, or nobody knows
+    std::string judged_utc;                     ///< and when, ISO 8601
+    QString tags;                               ///< "gate 3, lorry"
     std::vector<std::size_t> others = {};       ///< places in the queue of events that stand in its row, too
     std::optional<std::size_t> in_row_of = {};  ///< the place of the event in whose row it stands; nothing: its own
 };
@@ -47,6 +47,7 @@ class EventsModel : public RecordModel<EventEntry> {
         lowest_column,
         highest_column,
         picture_column,  ///< PictureColumn paints it
+        tags_column,
         column_count
     };
 

@@ -26,7 +26,7 @@ namespace eyrie::ui {
 namespace {
 
 /// Choices of the box of verdicts.
-enum VerdictFilter { kAllVerdicts, kToJudge, kRelevant, kNotRelevant, kUnsure, kStarred, kWithNote };
+enum VerdictFilter { kAllVerdicts, kToJudge, kRelevant, kNotRelevant, kUnsure, kStarred, kWithNote, kWithTags };
 
 QToolButton* buttonOf(QAction* action, const QString& text) {
     auto* button = new QToolButton;
@@ -64,6 +64,7 @@ EventsPanel::EventsPanel(EventsModel* model, const WindowActions& actions, QWidg
     placeAtFirst({EventsModel::duration_column}, EventsModel::figure_column);
     hideAtFirst({EventsModel::lowest_column, EventsModel::highest_column}, EventsModel::duration_column);
     hideAtFirst({EventsModel::picture_column}, EventsModel::number_column);
+    hideAtFirst({EventsModel::tags_column}, EventsModel::note_column);
     buildFilters();
     buildButtons();
     rows->addWidget(thresholds_, 3);
@@ -75,7 +76,7 @@ EventsPanel::EventsPanel(EventsModel* model, const WindowActions& actions, QWidg
 
 void EventsPanel::buildFilters() {
     verdicts_->addItems({tr("All verdicts"), tr("To judge"), tr("Relevant"), tr("Not relevant"), tr("Unsure"),
-                         tr("Starred"), tr("With a note")});
+                         tr("Starred"), tr("With a note"), tr("With tags")});
     verdicts_->setAccessibleName(tr("Verdicts that are listed"));
     verdicts_->setToolTip(tr("Which events are listed, by verdict"));
     verdicts_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
@@ -179,6 +180,8 @@ bool EventsPanel::isWanted(const EventEntry& entry) const {
             return entry.starred;
         case kWithNote:
             return !entry.note.isEmpty();
+        case kWithTags:
+            return !entry.tags.isEmpty();
         default:
             return true;
     }

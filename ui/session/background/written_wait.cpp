@@ -19,7 +19,6 @@ void WrittenWait::begin(std::function<void(bool all)> then) {
     then_ = std::move(then);
     latest_ = std::chrono::steady_clock::now() + kLongestWait;
     none_due_ = false;
-    failed_before_ = pool_->writesFailed();
     look_again_.start();
 }
 

@@ -16,7 +16,9 @@ class WrittenWait {
 
     bool anythingDue() const { return pool_->writesDue() > 0; }
     bool waiting() const { return then_ != nullptr; }
-    /// Whether a write has failed since begin(): its owner has told so, or is about to.
+    /// From here on it is noticed what fails; to be called before what is at work is asked to end.
+    void watch() { failed_before_ = pool_->writesFailed(); }
+    /// Whether a write has failed since watch(): its owner has told so, or is about to.
     bool anythingFailed() const { return pool_->writesFailed() > failed_before_; }
     /// Calls `then` from the event loop once nothing is due, and what failed of it was told, or when this took too
     /// long: `all` says which. Takes the place of what was waited for before.
@@ -30,7 +32,7 @@ class WrittenWait {
     std::function<void(bool all)> then_;
     std::chrono::steady_clock::time_point latest_{};
     bool none_due_ = false;  ///< when it was looked at last
-    int failed_before_ = 0;  ///< begin()
+    int failed_before_ = 0;  ///< watch()
     QTimer look_again_;
 };
 

@@ -48,6 +48,7 @@ class ProjectReader::Worker {
     }
 
     void forget() { opened_.reset(); }
+    void dropMove() { move_.reset(); }
 
     void openInstead(const std::filesystem::path& path) {
         close();
@@ -181,9 +182,13 @@ class ProjectReader::Worker {
             RunStore store(*project_);
             work(store);
         } catch (const std::exception& error) {
+            failed_ = true;
             tell([this, message = QString::fromUtf8(error.what())] { emit owner_.failed(message); });
         }
     }
+
+    /// Whether anything was told to have failed since this was asked last.
+    bool takeFailure() { return std::exchange(failed_, false); }
 
     ProjectFile& project() { return *project_; }
 
@@ -270,6 +275,7 @@ class ProjectReader::Worker {
     std::unique_ptr<ProjectMove> move_;    ///< of the project, to be gone on in
     std::unique_ptr<ChangeWatch> watch_;   ///< of the project
     bool any_running_ = false;             ///< when it was read last; that one was killed commits nothing
+    bool failed_ = false;
 };
 
 ProjectReader::ProjectReader(std::shared_ptr<CorrectedTracksMemo> corrected_tracks, QObject* parent)
@@ -284,7 +290,12 @@ void ProjectReader::post(Work work) {
 
 template <class Work>
 void ProjectReader::write(Work work) {
-    query_.write([worker = worker_.get(), work = std::move(work)](const BackgroundTask&) { work(*worker); });
+    query_.write([worker = worker_.get(), work = std::move(work)](const BackgroundTask&) {
+        worker->takeFailure();
+        work(*worker);
+        // It was told; whoever waits for writes is to know, too, and leaves the message to be read.
+        if (worker->takeFailure()) throw Error(ErrorKind::output, "the project could not be written");
+    });
 }
 
 void ProjectReader::open(const std::filesystem::path& project) {
@@ -365,6 +376,10 @@ void ProjectReader::saveCopy(const std::filesystem::path& target) {
 
 void ProjectReader::copyForMove(const std::filesystem::path& target) {
     post([target](Worker& worker) { worker.copyForMove(target); });
+}
+
+void ProjectReader::dropMove() {
+    post([](Worker& worker) { worker.dropMove(); });
 }
 
 void ProjectReader::move() {

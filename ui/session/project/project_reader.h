@@ -81,6 +81,8 @@ class ProjectReader : public QObject {
     /// Answers with movedTo(), or moveFailed(): then the former one is still open. Nobody else of this program may
     /// write into the former one from here on.
     void move();
+    /// Drops that copy: work goes on where it was.
+    void dropMove();
 
  signals:
     void opened(const ProjectLists& lists);

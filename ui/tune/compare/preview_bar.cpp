@@ -18,6 +18,8 @@ constexpr std::size_t kMostNamed = 2;  ///< … and in the bar itself
 PreviewBar::PreviewBar(LivePreview& preview, PreviewCommands commands, QWidget* parent)
     : QFrame(parent), preview_(preview), commands_(std::move(commands)) {
     setObjectName(QStringLiteral("preview_bar"));
+    setAutoFillBackground(true);  // it lies over the picture
+    setFrameShape(QFrame::StyledPanel);
     text_ = new ElidedLabel(Qt::ElideRight, this);
     text_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     range_ = new QSpinBox(this);

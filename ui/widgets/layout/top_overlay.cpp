@@ -3,6 +3,7 @@
 #include <QEvent>
 #include <QWidget>
 #include <algorithm>
+#include <utility>
 
 namespace eyrie::ui {
 
@@ -26,6 +27,7 @@ bool TopOverlay::eventFilter(QObject* watched, QEvent* event) {
     const bool area_moves = type == QEvent::Resize || type == QEvent::Move;
     const bool overlay_changes = type == QEvent::LayoutRequest || type == QEvent::Show;
     if (watched == &area_ ? area_moves : overlay_changes) place();
+    if (watched == &overlay_ && type == QEvent::Hide) tell();
     return QObject::eventFilter(watched, event);
 }
 
@@ -37,6 +39,16 @@ void TopOverlay::place() {
     QRect place(room.topLeft(), QSize(width, std::min(wanted, room.height())));
     place.moveLeft(room.left() + (room.width() - width) / 2);
     overlay_.setGeometry(place);
+    tell();
+}
+
+void TopOverlay::setCovers(std::function<void(int covered_px)> covers) {
+    covers_ = std::move(covers);
+    tell();
+}
+
+void TopOverlay::tell() const {
+    covers_(overlay_.isHidden() ? 0 : overlay_.geometry().bottom() + 1 - area_.geometry().top());
 }
 
 }  // namespace eyrie::ui

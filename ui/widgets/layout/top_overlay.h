@@ -1,6 +1,7 @@
 #pragma once
 
 #include <QObject>
+#include <functional>
 
 class QWidget;
 
@@ -15,13 +16,17 @@ class TopOverlay : public QObject {
     /// `overlay` and `area` have the same parent, whose layout knows nothing of `overlay`, and live as long as this
     /// does.
     TopOverlay(QWidget& overlay, QWidget& area, QObject* parent);
+    /// Who is told how much of the area is covered at its top, px, whenever that may have changed.
+    void setCovers(std::function<void(int covered_px)> covers);
 
  protected:
     bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
     void place();
+    void tell() const;
 
+    std::function<void(int covered_px)> covers_ = [](int) {};
     QWidget& overlay_;
     QWidget& area_;
 };

@@ -348,12 +348,20 @@ void TablePanel::showRowMenu(const QPoint& place) {
     QMenu menu;
     menu.addAction(tr("Copy as text"), QKeySequence::Copy, this,
                    [this] { QApplication::clipboard()->setText(selectedText()); });
+    fillColumns(*menu.addMenu(tr("Columns")));
+    fillOrders(*menu.addMenu(tr("Order by")));
+    menu.addSeparator();
     if (currentId() != 0) fillMenu(menu, currentId());
     menu.exec(table_->viewport()->mapToGlobal(place));
 }
 
 void TablePanel::showHeaderMenu(const QPoint& place) {
     QMenu menu;
+    fillColumns(menu);
+    menu.exec(table_->horizontalHeader()->mapToGlobal(place));
+}
+
+void TablePanel::fillColumns(QMenu& menu) {
     QHeaderView* header = table_->horizontalHeader();
     const bool only_one = shownColumns().size() == 1;
     for (int column = 0; column < header->count(); ++column) {
@@ -363,7 +371,22 @@ void TablePanel::showHeaderMenu(const QPoint& place) {
         action->setEnabled(header->isSectionHidden(column) || !only_one);
         bindSwitches(this, {{action, [header, column](bool shown) { header->setSectionHidden(column, !shown); }}});
     }
-    menu.exec(header->mapToGlobal(place));
+}
+
+void TablePanel::fillOrders(QMenu& menu) {
+    const QHeaderView* header = table_->horizontalHeader();
+    const int now = header->sortIndicatorSection();
+    const bool falls = header->sortIndicatorOrder() == Qt::DescendingOrder;
+    for (const int column : shownColumns()) {
+        const QString title = proxy_->headerData(column, Qt::Horizontal).toString();
+        const QString arrow = column != now ? QString() : falls ? QStringLiteral("  ↓") : QStringLiteral("  ↑");
+        const Qt::SortOrder next = column == now && !falls ? Qt::DescendingOrder : Qt::AscendingOrder;
+        menu.addAction(title + arrow, this, [this, column, next] { table_->sortByColumn(column, next); });
+    }
+    if (!header->isSortIndicatorClearable()) return;
+    menu.addSeparator();
+    menu.addAction(tr("None of them"), this, [this] { table_->sortByColumn(-1, Qt::AscendingOrder); })
+        ->setEnabled(now >= 0);
 }
 
 void TablePanel::restoreColumns() {

@@ -77,6 +77,9 @@ class TablePanel : public QWidget {
     void restoreColumns();
     void saveColumns() const;
     void showHeaderMenu(const QPoint& place);
+    /// Which columns are shown, and by which the rows are ordered: titles do not take the keyboard's focus.
+    void fillColumns(QMenu& menu);
+    void fillOrders(QMenu& menu);
     void showRowMenu(const QPoint& place);
     void showTableOrEmptyState();
     void keepSelection();

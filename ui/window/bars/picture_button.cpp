@@ -1,9 +1,11 @@
 #include "window/bars/picture_button.h"
 
-#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QLabel>
 #include <QMenu>
 #include <QSlider>
 #include <QWidgetAction>
+#include <algorithm>
 
 #include "session/project_session.h"
 #include "widgets/wiring.h"
@@ -33,7 +35,7 @@ PictureButton::PictureButton(ProjectSession& session, const WindowActions& actio
     setIcon(QIcon::fromTheme(QStringLiteral("contrast")));
     setToolTip(tr("Brightness and contrast of what is shown; results are not changed"));
     setPopupMode(QToolButton::InstantPopup);
-    setFocusPolicy(Qt::NoFocus);
+    setFocusPolicy(Qt::TabFocus);  // nothing else leads to the sliders
     buildMenu();
     onEdited(
         this, [this] { apply(); }, brightness_, contrast_);
@@ -42,16 +44,27 @@ PictureButton::PictureButton(ProjectSession& session, const WindowActions& actio
 
 void PictureButton::buildMenu() {
     auto* menu = new QMenu(this);
-    auto* form = new QWidget(menu);
-    auto* layout = new QFormLayout(form);
-    layout->setContentsMargins(12, 6, 12, 2);
-    brightness_ = pictureSlider(tr("Brightness"), form);
-    contrast_ = pictureSlider(tr("Contrast"), form);
-    layout->addRow(tr("&Brightness"), brightness_);
-    layout->addRow(tr("&Contrast"), contrast_);
-    auto* sliders = new QWidgetAction(menu);
-    sliders->setDefaultWidget(form);
-    menu->addAction(sliders);
+    const QString names[] = {tr("Brightness"), tr("Contrast")};
+    const int widest = std::max(fontMetrics().horizontalAdvance(names[0]), fontMetrics().horizontalAdvance(names[1]));
+    // An entry of the menu each: Tab goes from one entry to the next, never within one.
+    const auto add_slider = [&](const QString& name) {
+        auto* line = new QWidget(menu);
+        auto* parts = new QHBoxLayout(line);
+        parts->setContentsMargins(12, 4, 12, 4);
+        auto* label = new QLabel(name, line);
+        label->setMinimumWidth(widest);
+        QSlider* slider = pictureSlider(name, line);
+        parts->addWidget(label);
+        parts->addWidget(slider);
+        line->setFocusPolicy(Qt::TabFocus);
+        line->setFocusProxy(slider);
+        auto* entry = new QWidgetAction(menu);
+        entry->setDefaultWidget(line);
+        menu->addAction(entry);
+        return slider;
+    };
+    brightness_ = add_slider(names[0]);
+    contrast_ = add_slider(names[1]);
     menu->addAction(actions_.even_picture);
     menu->addSeparator();
     menu->addAction(tr("As filmed"), this, &PictureButton::reset);

@@ -3,7 +3,6 @@
 #include <QDockWidget>
 #include <QMainWindow>
 #include <QMenu>
-#include <QVBoxLayout>
 #include <array>
 #include <utility>
 
@@ -14,6 +13,7 @@
 #include "tune/inspect/why_panel.h"
 #include "tune/parameters/parameter_binding.h"
 #include "tune/train/training_dialog.h"
+#include "widgets/layout/overlay_column.h"
 #include "widgets/parameters/parameter_form.h"
 #include "widgets/wiring.h"
 #include "workspace/dock_registry.h"
@@ -82,8 +82,7 @@ void Tuning::buildPreview() {
     preview_ = new LivePreview(parts_.session, this);
     preview_bar_ = new PreviewBar(
         *preview_, {.run = [this] { parts_.actions.run->trigger(); }, .discard = [this] { discardPreview(); }});
-    if (auto* column = qobject_cast<QVBoxLayout*>(parts_.canvas.parentWidget()->layout()))
-        column->insertWidget(column->indexOf(&parts_.canvas), preview_bar_);
+    parts_.over_canvas.add(*preview_bar_);
     // Queued: the settings of the next run take the value over first.
     ParameterForm& form = parts_.form;
     connect(&form, &ParameterForm::valueChanged, this, &Tuning::parameterMoved, Qt::QueuedConnection);

@@ -14,6 +14,7 @@ namespace eyrie::ui {
 
 class ComparisonWindow;
 class DockRegistry;
+class OverlayColumn;
 class OverlaySettings;
 class ParameterBinding;
 class ParameterForm;
@@ -26,6 +27,7 @@ class WindowActions;
 struct TuningParts {
     ProjectSession& session;
     VideoView& canvas;
+    OverlayColumn& over_canvas;
     DockRegistry& docks;
     ParameterForm& form;
     WindowActions& actions;
