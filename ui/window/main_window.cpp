@@ -27,7 +27,6 @@
 #include "tune/compare/live_preview.h"
 #include "tune/evaluate/evaluation_session.h"
 #include "tune/inspect/inspection.h"
-#include "tune/parameters/parameter_binding.h"
 #include "widgets/layout/overlay_column.h"
 #include "widgets/layout/top_overlay.h"
 #include "widgets/message_bar.h"
