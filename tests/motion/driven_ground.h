@@ -5,7 +5,7 @@
 
 #include "core/values/corner.h"
 #include "core/values/frame.h"
-#include "registration/textured_ground.h"
+#include "support/textured_ground.h"
 
 namespace eyrie::test {
 

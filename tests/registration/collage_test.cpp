@@ -5,8 +5,8 @@
 #include <sstream>
 
 #include "registration/registrar.h"
-#include "registration/textured_ground.h"
 #include "support/shared_data.h"
+#include "support/textured_ground.h"
 
 namespace eyrie::collage_test {
 namespace {

@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "registration/pictures/noise_level.h"
-#include "registration/textured_ground.h"
+#include "support/textured_ground.h"
 
 namespace eyrie::corner_detector_test {
 namespace {

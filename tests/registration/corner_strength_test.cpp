@@ -5,8 +5,8 @@
 #include <map>
 #include <utility>
 
-#include "registration/textured_ground.h"
 #include "support/every_target.h"
+#include "support/textured_ground.h"
 
 namespace eyrie::corner_strength_test {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "registration/registrar.h"
-#include "registration/textured_ground.h"
+#include "support/textured_ground.h"
 
 namespace eyrie::test {
 

@@ -5,8 +5,8 @@
 #include <random>
 
 #include "registration/estimation/normal_equations.h"
-#include "registration/textured_ground.h"
 #include "support/every_target.h"
+#include "support/textured_ground.h"
 
 namespace eyrie::homography_estimator_test {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "registration/textured_ground.h"
 #include "support/every_target.h"
+#include "support/textured_ground.h"
 
 namespace eyrie::patch_alignment_test {
 namespace {

@@ -6,7 +6,7 @@
 #include "registration/pictures/noise_level.h"
 #include "registration/pictures/padding_mask.h"
 #include "registration/pictures/picture_difference.h"
-#include "registration/textured_ground.h"
+#include "support/textured_ground.h"
 
 namespace eyrie::picture_measures_test {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "registration/estimation/homography_estimator.h"
 #include "registration/estimation/normal_equations.h"
-#include "registration/textured_ground.h"
+#include "support/textured_ground.h"
 
 namespace eyrie::slow_estimator_test {
 namespace {

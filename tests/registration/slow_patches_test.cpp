@@ -7,8 +7,8 @@
 
 #include "registration/corners/corner_strength.h"
 #include "registration/corners/patch_alignment.h"
-#include "registration/textured_ground.h"
 #include "support/every_target.h"
+#include "support/textured_ground.h"
 
 namespace eyrie::slow_patches_test {
 namespace {

@@ -8,7 +8,7 @@
 #include "registration/pictures/noise_level.h"
 #include "registration/pictures/padding_mask.h"
 #include "registration/pictures/picture_difference.h"
-#include "registration/textured_ground.h"
+#include "support/textured_ground.h"
 
 namespace eyrie::slow_pictures_test {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "registration/textured_ground.h"
+#include "support/textured_ground.h"
 
 namespace eyrie::thumbnail_search_test {
 namespace {
