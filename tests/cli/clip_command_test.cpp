@@ -17,6 +17,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr int kVideoFrames = 250;
 const cv::Size kVideoSize(320, 200);
@@ -169,7 +170,11 @@ TEST_F(HandedOver, TheReportOfEventsIsOneFileWithPictures) {
     const auto none = call({"report", "--project", "@p.eyrie", "--events", "--out", "@n.html"});
     EXPECT_EQ(none.exit_code, 0) << none.errors;
     EXPECT_THAT(none.output, HasSubstr("0 of "));
-    EXPECT_THAT(none.errors, HasSubstr("--verdict all"));
+    EXPECT_THAT(none.errors, HasSubstr("No event fits the choice; --verdict all"));
+    const auto untagged =
+        call({"report", "--project", "@p.eyrie", "--events", "--verdict", "all", "--tag", "bus", "--out", "@t.html"});
+    EXPECT_EQ(untagged.exit_code, 0) << untagged.errors;
+    EXPECT_THAT(untagged.errors, AllOf(HasSubstr("No event fits the choice\n"), Not(HasSubstr("--verdict"))));
 }
 
 TEST_F(HandedOver, TracksHaveMetresAndTimesOrARefusal) {

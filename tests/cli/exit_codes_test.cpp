@@ -102,6 +102,7 @@ TEST_F(ExitCodes, ARunThatIsNotThereIsTwoEverywhere) {
          {{"report", "--project", "@p.eyrie", "--events", "--out", "@r.html", "--run", "7"}, 2, "run 1 alone"},
          {{"report", "--project", "@p.eyrie", "--events", "--out", "@r.html", "--overlap", "0.3"}, 2, "--events"},
          {{"report", "--project", "@p.eyrie", "--out", "@r.html", "--verdict", "relevant"}, 2, "add --events"},
+         {{"report", "--project", "@p.eyrie", "--out", "@r.html", "--tag", "lorry"}, 2, "add --events"},
          {{"report", "--project", "@p.eyrie", "--events", "--out", "@r.html", "--start", "noon"}, 2, "UTC"},
          {{"report", "--project", "@p.eyrie", "--out", "@r.html", "--against", "7"}, 2, "--against 7"},
          {{"export", "--project", "@p.eyrie", "--run", "7", "--format", "mot", "--out", "@x.txt"}, 2, "run 1 alone"},

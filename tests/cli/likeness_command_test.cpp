@@ -48,6 +48,7 @@ TEST_F(LikenessCommand, WhatCountsForLikenessIsChosen) {
     EXPECT_EQ(wrong.exit_code, 2);
     EXPECT_THAT(wrong.errors, AllOf(HasSubstr("colour"), HasSubstr("path, speed, size, looks")));
     EXPECT_EQ(call({"--project", "@traffic.eyrie", "--like-by", "path"}).exit_code, 2) << "like which?";
+    EXPECT_EQ(call({"--project", "@traffic.eyrie", "--like", "1", "--tag", "lorry"}).exit_code, 2) << "tags of events";
 }
 
 TEST_F(LikenessCommand, PicturesForLooksThatCannotBeReadAreToldAndTheRestCounts) {

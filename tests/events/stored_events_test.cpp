@@ -114,6 +114,20 @@ TEST(EventChoice, WantsWhatItNamesOrAllWhereItNamesNothing) {
     EXPECT_FALSE(choice.wants(EventKind::stops, nullptr, 4));
 }
 
+TEST(EventChoice, OfSeveralTagsOneIsEnough) {
+    Verdict tagged;
+    tagged.tags = {"lorry", "gate 3"};
+    EventChoice choice;
+    choice.tags = {"bus", "gate 3"};
+    EXPECT_TRUE(choice.wants(EventKind::stops, &tagged, 1)) << "also of what nobody judged";
+    EXPECT_FALSE(choice.wants(EventKind::stops, nullptr, 1));
+    choice.judgements = {Judgement::relevant};
+    EXPECT_FALSE(choice.wants(EventKind::stops, &tagged, 1));
+    choice = {};
+    choice.tags = {"bus", "Lorry", "gate"};
+    EXPECT_FALSE(choice.wants(EventKind::stops, &tagged, 1)) << "whole words, as they are spelled";
+}
+
 TEST(ReviewedRun, VerdictsAreFoundByWhatTheyWereCarriedTo) {
     ReviewedRun run;
     run.review.verdicts[4].id = 4;

@@ -163,7 +163,8 @@ void addEventsCommand(CLI::App& app, int& exit_code) {
         ->type_name("NAMES")
         ->delimiter(',')
         ->needs(like);
-    for (const char* of_events : {"--kind", "--verdict", "--zone"}) like->excludes(command->get_option(of_events));
+    for (const char* of_events : {"--kind", "--verdict", "--tag", "--zone"})
+        like->excludes(command->get_option(of_events));
     command->add_option("--csv", arguments->csv, "Write what is listed as a table, too");
     like->excludes(addStart(*command, arguments->start));
     arguments->outputs.addTo(*command);

@@ -91,7 +91,8 @@ int makeEventReport(const ReportArguments& arguments, const std::stop_token& sto
     std::printf("Report: %s, %s, %zu of %zu events\n", arguments.out.c_str(), runText(run).c_str(),
                 countOfEvents(input), input.reviewed.events.size());
     if (countOfEvents(input) == 0 && !input.reviewed.events.empty())
-        std::fputs("No event has that verdict; --verdict all reports every event\n", stderr);
+        std::fprintf(stderr, "No event fits the choice%s\n",
+                     events.verdicts.empty() ? "" : "; --verdict all leaves verdicts out of it");
     return exit_ok;
 }
 

@@ -34,7 +34,8 @@ void giveBackSpace(SQLite::Database& database, std::chrono::milliseconds most) {
         int left = freePages(database);
         while (left > 0) {
             SQLite::Transaction step(database, SQLite::TransactionBehavior::IMMEDIATE);
-            // Only from here on does it keep others waiting; how long it waited for its own turn says nothing about a step.
+            // Only from here on does it keep others waiting; how long it waited for its own turn says nothing about a
+            // step.
             const auto begun = Clock::now();
             if (database.tryExec("PRAGMA incremental_vacuum(" + std::to_string(pages) + ")") != SQLITE_OK) return;
             step.commit();
