@@ -133,7 +133,8 @@ void ProjectSession::saveProjectAs(const fs::path& target) {
 /// The copy is made. What is at work in the background ends first, with what it has found by now.
 void ProjectSession::beginMove() {
     if (!project_open_ || moved_from_) return;
-    keepWritten();
+    move_wait_.watch();
+    endWork();
     move_wait_.begin([this](bool) { leaveForMove(); });
 }
 
@@ -147,7 +148,6 @@ void ProjectSession::leaveForMove() {
                "it has ended."));
         return;
     }
-    move_wait_.watch();
     keepWritten();
     moved_from_ = std::exchange(project_, {});
     emit changed(SessionChange::project);
@@ -172,6 +172,11 @@ void ProjectSession::finishMove(bool all_written) {
 void ProjectSession::endMove() {
     if (!move_wait_.waiting()) return;
     move_wait_.cancel();
+    if (project_open_ && !moved_from_) {  // what is at work has not ended yet
+        leaveForMove();
+        if (!moved_from_) return;
+        move_wait_.cancel();
+    }
     reader_.move();
 }
 
@@ -212,7 +217,7 @@ void ProjectSession::showRun(int run_id) {
     if (run == nullptr || current_run_ == run_id) return;
     if (running()) setFollowing(false);
     if (media_ && media_->identity != run->sequence.path) {
-        keepWritten();
+        endWork();
         const Media media = mediaOfIdentity(run->sequence.path, {.remembered_hz = run->sequence.rememberedRate()});
         beginOpening({media, Purpose::of_project, project_, run->sequence, run_id});
         return;

@@ -23,6 +23,7 @@ namespace eyrie::ui {
 
 /// What of a session's state is another than it was. What it is now, the session tells.
 enum class SessionChange {
+    work_ends,     ///< nothing yet: work whose result goes into the project ends now, with what it has found
     keep_written,  ///< nothing yet, but it is about to be: what is being written is kept now, where it belongs
     video,         ///< another one, or none
     length,        ///< more of the same video: it is being recorded
@@ -66,6 +67,11 @@ class ProjectSession : public QObject {
     void saveProjectAs(const std::filesystem::path& target);
     /// Has what is being written kept, as before the window is closed.
     void keepWritten() { emit changed(SessionChange::keep_written); }
+    /// The same before what is open is left: what is at work in the background ends, too, with what it has by now.
+    void endWork() {
+        emit changed(SessionChange::work_ends);
+        keepWritten();
+    }
     /// Reads the video anew with this many frames per second, and keeps the rate in the project.
     void setFrameRate(double frames_per_second);
     /// The video as the project keeps it; only with a video.

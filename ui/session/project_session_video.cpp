@@ -32,7 +32,7 @@ void ProjectSession::open(const std::vector<fs::path>& files) {
 }
 
 void ProjectSession::openMedia(Media media, const fs::path& project) {
-    keepWritten();  // what is at work in the background may end, and be stored, while this is opened
+    endWork();  // what is at work in the background may end, and be stored, while this is opened
     beginOpening({std::move(media), Purpose::another_video, project});
 }
 
@@ -55,7 +55,7 @@ void ProjectSession::cancelOpening() {
 }
 
 void ProjectSession::openProject(const fs::path& project) {
-    keepWritten();
+    endWork();
     cancelOpening();
     if (running()) stopRun();
     awaitProject(true);
@@ -290,7 +290,7 @@ QString ProjectSession::partText(FrameIndex frame) const {
 
 void ProjectSession::setFrameRate(double frames_per_second) {
     if (!media_ || running() || missing_) return;
-    keepWritten();
+    endWork();
     beginOpening({mediaOfIdentity(media_->identity, {.given_hz = frames_per_second}), Purpose::other_rate});
 }
 

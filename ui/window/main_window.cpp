@@ -387,8 +387,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
         return;
     }
     write_wait_.watch();
-    session_.keepWritten();
-    files_->rememberView();
+    session_.endWork();
     settings_.setGeometry(saveGeometry());
     settings_.setValue(kColourBlind, overlays_.palette() == PaletteKind::colour_blind);
     settings_.setValue(kEventRows, timeline_->kindsShown());
@@ -397,6 +396,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
         event->ignore();
         return;
     }
+    files_->rememberView();
     session_.stopRun();  // the run's own thread finishes storing while the program goes down
     event->accept();
 }

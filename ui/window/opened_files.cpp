@@ -129,7 +129,7 @@ void OpenedFiles::locateVideo() {
 void OpenedFiles::endWork(const QString& doing, std::function<void()> then) {
     parts_.guard.beforeEnding(doing, [this, then = std::move(then)] {
         leave_wait_.watch();
-        session_.keepWritten();
+        session_.endWork();
         // What could not be written was told, and is to be read; asked for again, it is left.
         if (!leave_wait_.anythingDue()) {
             if (!leave_wait_.anythingFailed()) then();

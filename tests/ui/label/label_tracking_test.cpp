@@ -92,7 +92,7 @@ class LabelTrackingTest : public QObject {
 
         WrittenWait wait;
         wait.watch();
-        session.keepWritten();  // as before the window closes
+        session.endWork();  // as before the window closes
         QVERIFY(wait.anythingDue());
         std::size_t keyframes_then = 0;
         wait.begin([&](bool) { keyframes_then = labels.object(*id)->keyframes.size(); });
@@ -101,6 +101,36 @@ class LabelTrackingTest : public QObject {
         QVERIFY(!wait.anythingFailed());
         QVERIFY2(keyframes_then > 1, "who waits finds in the labels what was sure");
         QVERIFY2(door.reached() < 11, "it went no further");
+    }
+
+    void trackingGoesOnWhileThePersonStays() {
+        test::Door door;
+        ProjectSession session;
+        LabelSession labels(session);
+        LabelEditor editor(session, labels);
+        QString told;
+        LabelTracking tracking(session, labels,
+                               {.working_changed = [] {},
+                                .show_advance = [](const TrackingAdvance&) {},
+                                .show_end = [&](FrameIndex, const QString& text) { told = text; }});
+        const auto at_last = qScopeGuard([&door] { door.open(); });  // whoever waits there holds up the rest
+        labels.setWanted(true);
+        Media media = test::sceneUnderTest(12);
+        const auto opened = std::make_shared<std::atomic<int>>(0);
+        media.open = [&door, opened](const IndexProgress&, std::stop_token) -> std::unique_ptr<FrameSource> {
+            if (opened->fetch_add(1) == 0) return std::make_unique<test::SceneSource>(12, nullptr);
+            return std::make_unique<test::SceneSource>(12, [&door](FrameIndex frame) { door.pass(frame); });
+        };
+        QVERIFY(test::openAndWait(session, media) && test::shows(session, 0));
+        QVERIFY(waitFor([&] { return labels.isOpen(); }));
+        QVERIFY(editor.add({{31, 55}, 22, 11, 0}, 0));
+        door.closeFrom(5);
+        tracking.start(1);
+        QVERIFY(waitFor([&] { return door.reached() >= 5; }));
+        session.keepWritten();  // as before a run begins, or a copy is saved
+        door.open();
+        QVERIFY(waitFor([&] { return !tracking.working(); }));
+        QVERIFY2(!told.contains(QStringLiteral("by hand")), qPrintable(told));
     }
 };
 

@@ -80,6 +80,9 @@ class BackgroundQueryTest : public QObject {
         QVERIFY(wait.anythingDue());
         wait.begin([&](bool all) { told << (all ? QStringLiteral("all") : QStringLiteral("too long")); });
         QVERIFY(wait.waiting());
+        pool->countFailedWrite();
+        wait.watch();  // a person who closes the window once more
+        QVERIFY(wait.anythingFailed());
         gate.open();
         QVERIFY(QTest::qWaitFor([&] { return !wait.waiting(); }, kPatience_ms));
         QCOMPARE(told, (QStringList{QStringLiteral("the disk is full"), QStringLiteral("all")}));

@@ -145,13 +145,51 @@ class SessionProjectsTest : public QObject {
         std::optional<DueWrite> work(std::in_place);
         QObject person;
         bool asked_to_end = false;
-        whenChanged(session, &person, {{SessionChange::keep_written, [&] { asked_to_end = true; }}});
+        whenChanged(session, &person, {{SessionChange::work_ends, [&] { asked_to_end = true; }}});
         const auto other = *home_ / "other.eyrie";
         session.saveProjectAs(other);
         QVERIFY(waitFor([&] { return asked_to_end; }));
         QCOMPARE(session.project(), project());  // what comes of it can be stored there
         work.reset();
         QVERIFY(waitFor([&] { return session.project() == other; }));
+    }
+
+    void whatTheWorkThatIsWaitedForCouldNotStoreKeepsSaveAsInTheFormerFile() {
+        const auto folder = folderWithRun();
+        ProjectSession session;
+        QVERIFY(open(session, folder));
+        BackgroundQuery found;
+        QObject person;
+        const auto end = [&] {
+            found.write([](const BackgroundTask&) { throw std::runtime_error("the disk is full"); });
+        };
+        whenChanged(session, &person, {{SessionChange::work_ends, end}});
+        QSignalSpy problem(&session, &ProjectSession::problem);
+        session.saveProjectAs(*home_ / "other.eyrie");
+        QVERIFY(problem.wait(kPatience_ms));
+        QVERIFY(problem.last().front().toString().contains(QStringLiteral("could not be stored")));
+        QCOMPARE(session.project(), project());
+        QVERIFY(listsAreOpen(session));
+    }
+
+    void whileWorkIsWaitedForAProjectThatCannotBeOpenedLeavesTheCopy() {
+        const auto folder = folderWithRun();
+        ProjectSession session;
+        QVERIFY(open(session, folder));
+        const auto broken = *home_ / "broken.eyrie";
+        std::ofstream(broken) << "no project";
+        const DueWrite work;  // does not end
+        QObject person;
+        bool asked_to_end = false;
+        whenChanged(session, &person, {{SessionChange::work_ends, [&] { asked_to_end = true; }}});
+        const auto other = *home_ / "other.eyrie";
+        session.saveProjectAs(other);
+        QVERIFY(waitFor([&] { return asked_to_end; }));
+        QSignalSpy problem(&session, &ProjectSession::problem);
+        session.openProject(broken);
+        QVERIFY(problem.wait(kPatience_ms));
+        QVERIFY(waitFor([&] { return session.project() == other; }));
+        QVERIFY(listsAreOpen(session));
     }
 
     void whoWaitsForWritesHearsOfWhatTheProjectDidNotTake() {

@@ -273,8 +273,15 @@ class WatchingTest : public QObject {
         QVERIFY(window().session().pictureLook().even);
         button->reset();
         QVERIFY(window().session().pictureLook().plain());
-        // Tab leads to the button, and from entry to entry of its menu.
+        // Tab leads to the button, the space bar opens its menu, and Tab leads from entry to entry there.
         QVERIFY((button->focusPolicy() & Qt::TabFocus) != 0);
+        bool opened = false;
+        QTimer::singleShot(0, button, [&] {
+            opened = QApplication::activePopupWidget() == button->menu();
+            button->menu()->close();
+        });
+        QTest::keyClick(button, Qt::Key_Space);
+        QVERIFY(opened);
         QList<QWidget*> reached;
         for (QAction* action : button->menu()->actions())
             if (const auto* entry = qobject_cast<QWidgetAction*>(action);

@@ -41,7 +41,7 @@ LabelFitting::LabelFitting(ProjectSession& session, LabelSession& labels, std::f
                            QObject* parent)
     : QObject(parent), session_(session), labels_(labels), working_changed_(std::move(working_changed)) {
     connect(&labels_, &LabelSession::closed, this, &LabelFitting::stop);
-    whenChanged(session_, this, {{SessionChange::keep_written, [this] { stop(); }}});
+    whenChanged(session_, this, {{SessionChange::work_ends, [this] { stop(); }}});
 }
 
 void LabelFitting::start() {

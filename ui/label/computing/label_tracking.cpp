@@ -24,7 +24,7 @@ LabelTracking::LabelTracking(ProjectSession& session, LabelSession& labels, Labe
                              QObject* parent)
     : QObject(parent), session_(session), labels_(labels), answers_(std::move(answers)) {
     connect(&labels_, &LabelSession::closed, this, &LabelTracking::stop);
-    whenChanged(session_, this, {{SessionChange::keep_written, [this] { stop(); }}});
+    whenChanged(session_, this, {{SessionChange::work_ends, [this] { stop(); }}});
 }
 
 void LabelTracking::start(int direction) {

@@ -58,7 +58,7 @@ TrackCorrecting::TrackCorrecting(const CorrectingParts& parts, QObject* parent)
                          enableActions();
                      }},
                     {{SessionChange::run_data, SessionChange::frame}, [this] { enableActions(); }},
-                    {SessionChange::keep_written, [this] { following_.request_stop(); }},
+                    {SessionChange::work_ends, [this] { following_.request_stop(); }},
                     {{SessionChange::video, SessionChange::current_run},
                      [this] {
                          tool_->cancel();

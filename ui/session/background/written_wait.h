@@ -16,8 +16,11 @@ class WrittenWait {
 
     bool anythingDue() const { return pool_->writesDue() > 0; }
     bool waiting() const { return then_ != nullptr; }
-    /// From here on it is noticed what fails; to be called before what is at work is asked to end.
-    void watch() { failed_before_ = pool_->writesFailed(); }
+    /// From here on it is noticed what fails; to be called before what is at work is asked to end. While it waits, it
+    /// is noticed already.
+    void watch() {
+        if (!waiting()) failed_before_ = pool_->writesFailed();
+    }
     /// Whether a write has failed since watch(): its owner has told so, or is about to.
     bool anythingFailed() const { return pool_->writesFailed() > failed_before_; }
     /// Calls `then` from the event loop once nothing is due, and what failed of it was told, or when this took too

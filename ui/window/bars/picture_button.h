@@ -22,6 +22,9 @@ class PictureButton : public QToolButton {
     /// As filmed.
     void reset();
 
+ protected:
+    bool event(QEvent* event) override;
+
  private:
     void buildMenu();
     void apply();

@@ -64,7 +64,7 @@ void LiveWatching::watch(const LiveRequest& request) {
     parts_.settings.setValue(kAddress, QString::fromStdString(shownAddress(request.address)));
     parts_.settings.setValue(kLiveFolder, QString::fromStdString(request.project.parent_path().string()));
     parts_.leave_view();
-    parts_.session.keepWritten();  // what is tracked ends, and is stored before the source answers
+    parts_.session.endWork();  // what is tracked ends, and is stored before the source answers
     parts_.session.watchLive(request);
 }
 
