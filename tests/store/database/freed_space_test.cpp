@@ -86,7 +86,7 @@ TEST_F(FreedSpace, WaitsForTheNextTimeWhereAnotherWrites) {
 }
 
 TEST_F(FreedSpace, KeepsNobodyFromWriting) {
-    free(project_.database(), 3000);
+    free(project_.database(), 1000);
     std::atomic<bool> given = false;
     std::jthread giving([&] {
         giveBackSpace(project_.database());

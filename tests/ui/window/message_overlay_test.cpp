@@ -79,7 +79,7 @@ class MessageOverlayTest : public QObject {
         tracking->showAdvance({QStringLiteral("car 1"), 2, 2, 4, 1});
         preview.show();
         const auto lies_over_the_picture = [&](const QWidget& bar) {
-            return bar.isVisible() && bar.height() > 0 && picture.contains(onScreen(bar));
+            return bar.isVisible() && bar.height() >= bar.sizeHint().height() && picture.contains(onScreen(bar));
         };
         QTRY_VERIFY_WITH_TIMEOUT(lies_over_the_picture(*tracking) && lies_over_the_picture(preview), kPatience_ms);
         QVERIFY(!onScreen(*tracking).intersects(onScreen(preview)));
