@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "imaging/contours/boundary_cues.h"
@@ -84,13 +85,14 @@ double differencePlainly(const cv::Mat& values, int bins, double blur, double ra
             samples.push_back({across, chi({inside(at.x + dx, values.cols), inside(at.y + dy, values.rows)})});
         }
     }
-    Eigen::MatrixXd powers(samples.size(), 3);
-    Eigen::VectorXd heights(samples.size());
+    cv::Mat1d powers(int(samples.size()), 3);
+    cv::Mat1d heights(int(samples.size()), 1);
     for (std::size_t i = 0; i < samples.size(); ++i) {
-        powers.row(Eigen::Index(i)) << 1, samples[i][0], samples[i][0] * samples[i][0];
-        heights(Eigen::Index(i)) = samples[i][1];
+        for (int power = 0; power < 3; ++power) powers(int(i), power) = std::pow(samples[i][0], power);
+        heights(int(i)) = samples[i][1];
     }
-    const Eigen::VectorXd fit = powers.jacobiSvd(Eigen::ComputeThinU | Eigen::ComputeThinV).solve(heights);
+    cv::Mat1d fit;
+    cv::solve(powers, heights, fit, cv::DECOMP_SVD);
     return std::max(0.0, fit(0));
 }
 

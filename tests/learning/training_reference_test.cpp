@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <opencv2/core.hpp>
 
 #include "learning/classifiers/fast_ica.h"
 #include "learning/classifiers/feature_bins.h"
@@ -167,8 +168,11 @@ Eigen::MatrixXd icaPlainly(const Eigen::MatrixXd& samples, std::uint64_t seed, d
         whitening.row(k) = directions.eigenvectors().col(k).transpose() / std::sqrt(variance);
     }
     const auto orthogonal = [](const Eigen::MatrixXd& w) -> Eigen::MatrixXd {
-        const Eigen::JacobiSVD<Eigen::MatrixXd> svd(w, Eigen::ComputeFullU | Eigen::ComputeFullV);
-        return svd.matrixU() * svd.matrixV().transpose();
+        Eigen::MatrixXd nearest = w;
+        const cv::Mat columns(int(w.cols()), int(w.rows()), CV_64F, nearest.data());  // transposed, as its result is
+        const cv::SVD svd(columns.clone());
+        cv::Mat(svd.u * svd.vt).copyTo(columns);
+        return nearest;
     };
     SeededRandom random(seed);
     Eigen::MatrixXd w(d, d);

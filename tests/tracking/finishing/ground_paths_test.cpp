@@ -1,8 +1,8 @@
 // What is carried over the ground from frame to frame: compared with the same sums done plainly.
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <cmath>
+#include <opencv2/core.hpp>
 #include <random>
 
 #include "core/geometry/angle.h"
@@ -61,14 +61,15 @@ double weightOf(StateOrigin origin) {
 /// Value and slope at time 0 of a polynomial fitted by the pseudo-inverse.
 std::pair<double, double> fitted(const std::vector<double>& times, const std::vector<double>& values,
                                  const std::vector<double>& weights, int degree) {
-    Eigen::MatrixXd a(times.size(), degree + 1);
-    Eigen::VectorXd b(times.size());
+    cv::Mat1d a(int(times.size()), degree + 1);
+    cv::Mat1d b(int(times.size()), 1);
     for (std::size_t i = 0; i < times.size(); ++i) {
         const double root = std::sqrt(weights[i]);
-        for (int power = 0; power <= degree; ++power) a(Eigen::Index(i), power) = root * std::pow(times[i], power);
-        b(Eigen::Index(i)) = root * values[i];
+        for (int power = 0; power <= degree; ++power) a(int(i), power) = root * std::pow(times[i], power);
+        b(int(i)) = root * values[i];
     }
-    const Eigen::VectorXd solution = a.jacobiSvd(Eigen::ComputeThinU | Eigen::ComputeThinV).solve(b);
+    cv::Mat1d solution;
+    cv::solve(a, b, solution, cv::DECOMP_SVD);
     return {solution(0), solution(1)};
 }
 
