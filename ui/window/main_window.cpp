@@ -325,6 +325,7 @@ void MainWindow::showVideo() {
 void MainWindow::showPicture() {
     const ViewFrame& frame = session_.viewFrame();
     canvas_->setFrame(frame);
+    actions_->why->setEnabled(session_.currentRun() && frame.result);
     // An empty picture of a run may not look as if nothing was found there.
     QString missing;
     if (!frame.result && session_.currentRun() && !session_.running()) missing = tr("Not processed in this run");
@@ -345,7 +346,7 @@ void MainWindow::enableActions() {
     watching_->enableActions();
     for (QAction* action : actions_->workspace) action->setEnabled(true);
     const bool has_run = session_.currentRun().has_value();
-    actions_->why->setEnabled(has_run);
+    actions_->why->setEnabled(has_run && session_.viewFrame().result);
     actions_->compare->setEnabled(hasRunOfTheVideo(session_));
     actions_->run->setEnabled(has_video && !running);
     actions_->stop->setEnabled(running);

@@ -317,6 +317,19 @@ class WindowFilesTest : public QObject {
         QVERIFY(waitFor([&] { return !window.actions().compare->isEnabled(); }));
     }
 
+    void whyIsAskedOnlyAboutFramesThatWereProcessed() {
+        MainWindow window;
+        QVERIFY(opensMedia(window, test::sceneUnderTest(60)));
+        window.session().settings().range = {0, 19};
+        QVERIFY(test::runAndWait(window.session()));
+        window.session().goToFrame(10);
+        QVERIFY(waitFor([&] { return window.canvas().frame().index == 10 && window.actions().why->isEnabled(); }));
+        window.session().goToFrame(50);
+        QVERIFY(waitFor([&] { return window.canvas().frame().index == 50 && !window.actions().why->isEnabled(); }));
+        window.session().goToFrame(11);
+        QVERIFY(waitFor([&] { return window.canvas().frame().index == 11 && window.actions().why->isEnabled(); }));
+    }
+
     void theEndOfARunIsSummarised() {
         MainWindow window;
         QVERIFY(runs(window, images("a", 40)));

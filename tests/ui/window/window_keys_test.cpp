@@ -284,7 +284,8 @@ class WindowKeysTest : public QObject {
         dock->setWidget(button);
         window->addDockWidget(Qt::RightDockWidgetArea, dock);
         dock->show();
-        QVERIFY(QTest::qWaitFor([&] { return button->isVisible(); }, kPatience_ms));
+        QVERIFY(QTest::qWaitFor([&] { return button->isVisible() && !window->canvas().frame().image.isNull(); },
+                                kPatience_ms));
         window->canvas().setFocus();
         QTest::mouseClick(button, Qt::LeftButton);
         QVERIFY(button->isChecked() && button->hasFocus());
