@@ -147,6 +147,15 @@ void VideoView::hideKeyPointer() {
     update();
 }
 
+void VideoView::moveKeyPointer(QPointF view_point) {
+    mouseTakesOver();
+    if (!toolTakesKeys()) return;
+    pointer_.showAt(view_point);
+    pointer_.point(*tool_, place(true));
+    reportCursor(view_point);
+    update();
+}
+
 CanvasPlace VideoView::place(bool by_keys) const {
     return {transform_, frame_.image, QRectF(rect()), by_keys};
 }

@@ -57,6 +57,8 @@ class VideoView : public QWidget {
     CanvasTool* tool() const { return tool_; }
     /// Where the cross is that keys move while a tool takes places, view coordinates; nothing while there is none.
     std::optional<QPointF> keyPointer() const;
+    /// Shows the cross at another place of the view, where a tool takes places; what keys held is let go where it was.
+    void moveKeyPointer(QPointF view_point);
     /// Takes the cross away, as when a tool that stays has ended what it wanted places for.
     void hideKeyPointer();
 

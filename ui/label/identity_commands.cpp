@@ -65,7 +65,8 @@ void IdentityCommands::offer(QAction* action, const std::function<std::optional<
     auto plan = make();
     if (!plan) return;
     const QString key = action->shortcut().toString(QKeySequence::NativeText);
-    const QString text = tr("%1 → %2. Press %3 again to confirm, Esc to cancel.")
+    const QString text = (key.isEmpty() ? tr("%1 → %2. Confirm it, or clear the selection to cancel.")
+                                        : tr("%1 → %2. Press %3 again to confirm, or clear the selection to cancel."))
                              .arg(QString::fromStdString(plan->edit.name), plan->text, key);
     planned_ = {action, labels.selection(), std::move(plan)};
     emit shownEditChanged();

@@ -103,7 +103,7 @@ LabelActions::LabelActions(KeyBindings& keys, QWidget& window, QWidget& canvas)
     proposal_tolerance = add(tr("Keyframes of proposals…"), {});
     track_on = add(tr("Track the box forward"), {QKeySequence(tr("Shift+F"))});
     track_back = add(tr("Track the box backward"), {QKeySequence(tr("Shift+B"))});
-    stop_tracking = add(tr("Stop tracking (Esc)"), {});
+    stop_tracking = add(tr("Stop tracking"), {});
 
     section(tr("Identity"));
     join = add(tr("&Join in time with…"), {QKeySequence(tr("Shift+J"))});

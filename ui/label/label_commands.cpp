@@ -257,7 +257,7 @@ std::vector<TrackId> LabelCommands::meantProposals() {
     const auto place = parts_.tool.cursorInImage();
     const LabelMark* hit = place ? proposalAt(parts_.tool.scene(), *place, 0) : nullptr;
     if (hit != nullptr) return {hit->id};
-    parts_.tell(tr("Point at a proposal, or go to one with Shift+P."));
+    parts_.tell(tr("Point at a proposal, or go to one with “Next proposal”."));
     return {};
 }
 

@@ -78,6 +78,9 @@ void LabelWorkspace::buildDocks() {
     model_ = new ObjectsModel(this);
     objects_ = new ObjectsPanel(model_);
     inspector_ = new ObjectInspector;
+    inspector_->nameKeys(*actions_);
+    whenAny(
+        &around_.keys, inspector_, [this] { inspector_->nameKeys(*actions_); }, &KeyBindings::keysChanged);
     around_.docks.add(DockId::objects, tr("Objects"), objects_);
     around_.docks.add(DockId::object, tr("Object"), inspector_);
 }
@@ -376,12 +379,15 @@ void LabelWorkspace::enableActions() {
     actions_->try_to_write->setEnabled(labels_->isOpen() && labels_->readOnly());
     for (QAction* action :
          {actions_->draw, actions_->region, actions_->delete_region, actions_->region_begins, actions_->region_ends,
-          actions_->region_anchor, actions_->import_labels, actions_->export_labels, actions_->next_object,
-          actions_->previous_object, actions_->next_attention, actions_->next_unchecked, actions_->proposals,
-          actions_->proposal_tolerance})
+          actions_->region_anchor, actions_->import_labels, actions_->export_labels, actions_->next_attention,
+          actions_->next_unchecked, actions_->proposals, actions_->proposal_tolerance})
         action->setEnabled(labels_->isOpen());
+    for (QAction* action : actions_->object_class) action->setEnabled(labels_->isOpen());
+    for (QAction* action : {actions_->next_object, actions_->previous_object})
+        action->setEnabled(labels_->isOpen() && !labels_->annotations().objects.empty());
     for (QAction* action : {actions_->next_frame, actions_->previous_frame, actions_->ten_on, actions_->ten_back})
         action->setEnabled(around_.session.video().has_value());
+    for (QAction* action : actions_->nudge) action->setEnabled(around_.session.video().has_value());  // or they step
 }
 
 void LabelWorkspace::followObject() {

@@ -2,7 +2,6 @@
 
 #include <QEvent>
 #include <QHBoxLayout>
-#include <QKeyEvent>
 #include <QLabel>
 #include <QPushButton>
 #include <QScopedValueRollback>
@@ -93,15 +92,6 @@ void MessageStrip::applyColours() {
     setPalette(colours);
     const int size = style()->pixelMetric(QStyle::PM_SmallIconSize);
     icon_->setPixmap(style()->standardIcon(iconOf(kind_), nullptr, this).pixmap(size, size));
-}
-
-bool MessageStrip::event(QEvent* event) {
-    // The space bar presses the button that has the focus; elsewhere in the window it plays.
-    if (event->type() == QEvent::ShortcutOverride && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Space) {
-        event->accept();
-        return true;
-    }
-    return QFrame::event(event);
 }
 
 void MessageStrip::changeEvent(QEvent* event) {

@@ -30,7 +30,6 @@ class MessageStrip : public QFrame {
     void dismissed();
 
  protected:
-    bool event(QEvent* event) override;
     void changeEvent(QEvent* event) override;
 
  private:

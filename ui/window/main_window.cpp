@@ -15,6 +15,7 @@
 #include <QStatusBar>
 #include <QToolBar>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <utility>
 
 #include "canvas/timeline/timeline_view.h"
@@ -53,6 +54,7 @@
 #include "window/welcome_panel.h"
 #include "window/window_commands.h"
 #include "workspace/dock_registry.h"
+#include "workspace/focused_keys.h"
 #include "workspace/timeline_binding.h"
 #include "workspace/timeline_thumbnails.h"
 #include "workspace/window_actions.h"
@@ -80,6 +82,14 @@ void leaveCell(QWidget* focused) {
     if (list != nullptr && list->viewport() == viewport) list->setFocus();
 }
 
+/// Whether there is anything to compare: the run shown may have been removed though others remain.
+bool hasRunOfTheVideo(const ProjectSession& session) {
+    const auto& runs = session.runs();
+    return session.media() && std::any_of(runs.begin(), runs.end(), [&](const RunRecord& run) {
+               return run.sequence.path == session.media()->identity && run.frames_done > 0;
+           });
+}
+
 }  // namespace
 
 MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
@@ -91,6 +101,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
     actions_ = new WindowActions(overlays_, this);
     keys_.add({QString(), actions_->sections()});
+    new FocusedKeys(this);
     buildCentre();
     buildToolBar();
     resize(kFirstSize.boundedTo(screen()->availableSize() - kFrame));
@@ -314,6 +325,7 @@ void MainWindow::showVideo() {
 void MainWindow::showPicture() {
     const ViewFrame& frame = session_.viewFrame();
     canvas_->setFrame(frame);
+    actions_->why->setEnabled(session_.currentRun() && frame.result);
     // An empty picture of a run may not look as if nothing was found there.
     QString missing;
     if (!frame.result && session_.currentRun() && !session_.running()) missing = tr("Not processed in this run");
@@ -334,8 +346,8 @@ void MainWindow::enableActions() {
     watching_->enableActions();
     for (QAction* action : actions_->workspace) action->setEnabled(true);
     const bool has_run = session_.currentRun().has_value();
-    actions_->why->setEnabled(has_run);
-    actions_->compare->setEnabled(has_run);
+    actions_->why->setEnabled(has_run && session_.viewFrame().result);
+    actions_->compare->setEnabled(hasRunOfTheVideo(session_));
     actions_->run->setEnabled(has_video && !running);
     actions_->stop->setEnabled(running);
     actions_->continue_run->setEnabled(has_run && session_.canContinue(*session_.currentRun()));
@@ -401,26 +413,31 @@ void MainWindow::closeEvent(QCloseEvent* event) {
     event->accept();
 }
 
-/// Whether what a person did last is on its way into its files still. The window closes by itself once it is there, and
-/// stays where it could not be written, so that its message is read.
+/// Whether what a person did last is on its way into its files still. The window closes by itself once it is there.
 bool MainWindow::waitsForWrites() {
     if (std::exchange(written_, false)) return false;
-    if (!write_wait_.anythingDue()) {
-        const bool failed = write_wait_.anythingFailed();
-        if (failed) closing_ = false;
-        return failed;
-    }
+    if (!write_wait_.anythingDue()) return !mayClose();
     messages_->showTopic(kClosingTopic, MessageKind::info,
                          tr("Saving your last changes. The window closes when they are stored."));
     write_wait_.begin([this](bool) {
         messages_->dismissTopic(kClosingTopic);
         closing_ = false;
-        if (write_wait_.anythingFailed()) return;
+        if (!mayClose()) return;
         written_ = true;
         close();
         written_ = false;
     });
     return true;
+}
+
+/// Where something could not be written the window stays once, so that its message is read.
+bool MainWindow::mayClose() {
+    if (!write_wait_.anythingFailed()) return true;
+    closing_ = false;
+    messages_->showTopic(kClosingTopic, MessageKind::warning,
+                         tr("Not all of your last changes could be saved, so the window stays open. Close it again to "
+                            "leave without them."));
+    return false;
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {

@@ -96,6 +96,7 @@ class MainWindow : public QMainWindow {
     void updateTitle();
     void focusCanvas();
     bool waitsForWrites();
+    bool mayClose();
     /// How high the rows below the video are, by how high the window is.
     void fitRows();
 

@@ -127,20 +127,30 @@ void OpenedFiles::locateVideo() {
 }
 
 void OpenedFiles::endWork(const QString& doing, std::function<void()> then) {
-    parts_.guard.beforeEnding(doing, [this, then = std::move(then)] {
+    parts_.guard.beforeEnding(doing, [this, doing, then = std::move(then)] {
+        parts_.messages.dismissTopic(kLeavingTopic);
         leave_wait_.watch();
         session_.endWork();
-        // What could not be written was told, and is to be read; asked for again, it is left.
         if (!leave_wait_.anythingDue()) {
-            if (!leave_wait_.anythingFailed()) then();
+            if (mayLeave()) then();
             return;
         }
         parts_.messages.showTopic(kLeavingTopic, MessageKind::info, tr("Saving your last changes first."));
-        leave_wait_.begin([this, then](bool) {
+        leave_wait_.begin([this, doing, then](bool) {
             parts_.messages.dismissTopic(kLeavingTopic);
-            if (!leave_wait_.anythingFailed()) then();
+            // A run may have been begun meanwhile.
+            if (mayLeave()) parts_.guard.beforeEnding(doing, then);
         });
     });
+}
+
+/// What could not be written is told by its owner, and is to be read; asked for again, it is left.
+bool OpenedFiles::mayLeave() {
+    if (!leave_wait_.anythingFailed()) return true;
+    parts_.messages.showTopic(kLeavingTopic, MessageKind::warning,
+                              tr("Not all of your last changes could be saved, so nothing else was opened. Ask for it "
+                                 "again to go on without them."));
+    return false;
 }
 
 void OpenedFiles::leave(std::function<void()> then) {

@@ -76,6 +76,7 @@ class OpenedFiles : public QObject {
     void leave(std::function<void()> then);
     /// Ends what runs, and lets what people did last go into its files before `then`.
     void endWork(const QString& doing, std::function<void()> then);
+    bool mayLeave();
     void becameReady(bool has_results);
     void runEnded(const RunSummary& summary);
     void rememberProject();

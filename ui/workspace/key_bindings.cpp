@@ -27,13 +27,15 @@ QList<QKeySequence> keysFrom(const QStringList& words) {
 }
 
 void showTip(QAction& action) {
-    QString tip = action.whatsThis();
-    if (!action.shortcut().isEmpty())
-        tip += QStringLiteral(" (%1)").arg(action.shortcut().toString(QKeySequence::NativeText));
-    action.setToolTip(tip);
+    action.setToolTip(withKey(action.whatsThis(), action));
 }
 
 }  // namespace
+
+QString withKey(const QString& hint, const QAction& action) {
+    const QKeySequence key = action.shortcut();
+    return key.isEmpty() ? hint : QStringLiteral("%1 (%2)").arg(hint, key.toString(QKeySequence::NativeText));
+}
 
 void setTip(QAction& action, const QString& tip) {
     action.setWhatsThis(tip);

@@ -14,6 +14,8 @@ struct ActionSection {
     QList<QAction*> actions;
 };
 
+/// A hint with the first key of the command that does the same, if it has any: "Checked (V)".
+QString withKey(const QString& hint, const QAction& action);
 /// What a command does, in words. Its tooltip is that with its first key.
 void setTip(QAction& action, const QString& tip);
 /// The keys that work now, with the tooltip.

@@ -127,6 +127,7 @@ void KeySheet::fill(const QString& first) {
           {tr("Double-click at the cross"), tr("Enter or Space again without moving")},
           {tr("End a zone, a line or control points"), tr("Enter, while no cross is shown")},
           {tr("Take the last point back"), tr("Backspace")},
+          {tr("Go to the next point of a zone, while its points are moved"), tr("Tab")},
           {tr("Cancel"), tr("Esc")}});
     told(tr("Mouse"), {{tr("Zoom to the cursor"), tr("Wheel")},
                        {tr("Move the picture"), tr("Drag, also with Space held")},

@@ -19,6 +19,15 @@ namespace eyrie::ui::label_keeping_test {
 class LabelKeepingTest : public QObject, test::Labelling {
     Q_OBJECT
 
+    static void drop(MainWindow& window, const std::filesystem::path& video) {
+        QMimeData data;
+        data.setUrls({QUrl::fromLocalFile(QString::fromStdString(video.string()))});
+        QDragEnterEvent enter({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+        QApplication::sendEvent(&window, &enter);
+        QDropEvent dropped({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+        QApplication::sendEvent(&window, &dropped);
+    }
+
  private slots:
     void init() { begin(); }
     void cleanup() { end(); }
@@ -70,13 +79,8 @@ class LabelKeepingTest : public QObject, test::Labelling {
         whenChanged(window->session(), window.get(),
                     {{SessionChange::video, [&] { tracks_still = actions.stop_tracking->isEnabled(); }}});
         actions.track_on->trigger();
-        QMimeData data;
-        data.setUrls({QUrl::fromLocalFile(QString::fromStdString(other.string()))});
-        QDragEnterEvent enter({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-        QApplication::sendEvent(window.get(), &enter);
-        QDropEvent drop({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
         QSignalSpy ready(&window->session(), &ProjectSession::ready);
-        QApplication::sendEvent(window.get(), &drop);
+        drop(*window, other);
         QVERIFY(!window->session().opening());
         QVERIFY(ready.wait(test::kPatience_ms));
         QVERIFY(!tracks_still);
@@ -97,8 +101,31 @@ class LabelKeepingTest : public QObject, test::Labelling {
         QVERIFY2(told.contains(QStringLiteral("disk")), qPrintable(told));
         QCoreApplication::processEvents();
         QVERIFY2(window->isVisible(), "the message is to be read");
+        QVERIFY(waitFor([&] {
+            return window->messages().texts().join(QLatin1Char(' ')).contains(QStringLiteral("Close it again"));
+        }));
         window->close();
         QVERIFY(waitFor([&] { return !window->isVisible(); }));
+    }
+
+    void anotherVideoIsNotOpenedOnceWhereWhatIsBeingWrittenCannotBeStored() {
+        const auto window = labellingWindow(6);
+        QVERIFY(window);
+        const auto other = test::writeScene(home() / "others", 8);
+        draw(*window, {40, 60}, {58, 60});
+        QTest::keyClicks(&window->labelling().inspector().notes(), QStringLiteral("white van"));
+        {
+            const test::FullDisk full;
+            drop(*window, other);
+            QVERIFY(!window->session().opening());
+        }
+        const auto told = [&] { return window->messages().texts().join(QLatin1Char(' ')); };
+        QVERIFY2(waitFor([&] { return told().contains(QStringLiteral("Ask for it again")); }), qPrintable(told()));
+        QSignalSpy ready(&window->session(), &ProjectSession::ready);
+        drop(*window, other);
+        QVERIFY(ready.wait(test::kPatience_ms));
+        QCOMPARE(window->session().video()->frame_count, 8);
+        QVERIFY2(!told().contains(QStringLiteral("Ask for it again")), qPrintable(told()));
     }
 
     void notesThatAreBeingWrittenStayWithTheObjectOfTheProjectThatIsLeft() {

@@ -2,11 +2,13 @@
 #include <QTest>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "canvas/video_view.h"
 #include "review/correct/vehicle_box_tool.h"
 #include "review/earth/control_point_tool.h"
+#include "review/zones/zone_points_tool.h"
 #include "review/zones/zone_tool.h"
 #include "ui/support/ui_test.h"
 
@@ -169,6 +171,36 @@ class ToolsByKeysTest : public QObject {
         QCOMPARE(line.size(), std::size_t(3));
         QVERIFY(near({line[1].x, line[1].y}, begin + QPointF(1, 0)));
         QVERIFY(near({line[2].x, line[2].y}, begin + QPointF(1, 20)));
+    }
+
+    void tabGoesToTheNextPointOfAZoneAndArrowsMoveIt() {
+        Canvas canvas;
+        ZonePointsTool tool(canvas.view);
+        std::vector<std::pair<std::size_t, QPointF>> moved;
+        tool.setMoved([&](std::size_t point, cv::Point2d to) { moved.emplace_back(point, QPointF(to.x, to.y)); });
+        tool.start({{40, 40}, {120, 40}, {120, 100}}, true);
+        canvas.key(Qt::Key_Tab, 2);
+        QVERIFY(near(canvas.at(), {120, 40}));
+        canvas.key(Qt::Key_Return);
+        canvas.go(Qt::Key_Right, 10);
+        canvas.key(Qt::Key_Tab);  // it is held: nowhere else
+        QVERIFY(near({tool.points()[1].x, tool.points()[1].y}, {130, 40}));
+        tool.setPoints({{40, 40}, {120, 40}, {120, 100}});  // nothing new
+        QVERIFY(near({tool.points()[1].x, tool.points()[1].y}, {130, 40}));
+        canvas.key(Qt::Key_Backspace);
+        QVERIFY(near({tool.points()[1].x, tool.points()[1].y}, {120, 40}));
+        QVERIFY(moved.empty());
+        canvas.key(Qt::Key_Tab);
+        QVERIFY(near(canvas.at(), {120, 100}));
+        canvas.key(Qt::Key_Backtab, 1, Qt::ShiftModifier);
+        canvas.key(Qt::Key_Return);
+        canvas.go(Qt::Key_Down, 5);
+        canvas.key(Qt::Key_Return);
+        QCOMPARE(moved.size(), std::size_t(1));
+        QCOMPARE(moved[0].first, std::size_t(1));
+        QVERIFY(near(moved[0].second, {120, 45}));
+        canvas.key(Qt::Key_Escape);
+        QVERIFY(!tool.active() && canvas.view.tool() == nullptr);
     }
 
     void enterEndsWhatTheMouseDraws() {

@@ -80,7 +80,7 @@ class TuningTest : public QObject {
 
     void whyIsAnsweredWithTheStepsAndALinkToTheParameter() {
         QVERIFY(showRun());
-        QVERIFY(tuning().whyPanel().explanation().contains(QStringLiteral("press Shift+W")));
+        QVERIFY(tuning().whyPanel().explanation().contains(QStringLiteral("context menu of a place")));
         QVERIFY(!session().viewFrame().result->tracks.empty());
         const cv::Point2d centre = session().viewFrame().result->tracks.front().box.centre;
         tuning().askWhy(QPointF(centre.x, centre.y), 2);

@@ -396,6 +396,29 @@ class CorrectingWindowTest : public QObject {
         QVERIFY(QTest::qWaitFor([&] { return tracks(*window).size() == all; }, kPatience_ms));
     }
 
+    void whatIsCorrectedWhileAnotherRunIsChosenIsGivenUpWithAWord() {
+        const auto window = windowWithRun();
+        QVERIFY(window);
+        ProjectSession& session = window->session();
+        const int first = *session.currentRun();
+        QVERIFY(test::runAndWait(session));
+        const auto second_is_read = [&] {
+            return session.currentRun() != first && session.runData() &&
+                   session.runData()->record.id == session.currentRun();
+        };
+        QVERIFY(QTest::qWaitFor(second_is_read, kPatience_ms));
+        QVERIFY(readyAgain(*window));
+        const TrackSummary track = longest(*window);
+        QVERIFY(goTo(*window, (track.first_frame + track.last_frame) / 2));
+        session.selectTrack(track.id);
+        QVERIFY(QTest::qWaitFor([&] { return window->actions().split_track->isEnabled(); }, kPatience_ms));
+        window->actions().split_track->trigger();
+        QVERIFY(window->events().correcting().working());
+        session.showRun(first);
+        QVERIFY(tells(*window, QStringLiteral("given up: another run is shown now")));
+        QVERIFY(window->events().review().corrections().empty());
+    }
+
     void tracksOfTwoVehiclesAreNotJoined() {
         const auto window = windowWithRun();
         QVERIFY(window);

@@ -1,6 +1,7 @@
 #include <QDockWidget>
 #include <QFile>
 #include <QPushButton>
+#include <QTableView>
 #include <QTest>
 #include <algorithm>
 
@@ -60,6 +61,20 @@ class EventsWindowTest : public QObject {
         QTest::keyClick(window.get(), Qt::Key_1, Qt::ControlModifier);
         QVERIFY(window->actions().relevant->isEnabled());
         QVERIFY(!window->timeline().marks().empty());
+    }
+
+    void whatIsAskedForOfNoEventIsSaidToNeedOne() {
+        const auto window = windowWithEvents();
+        QVERIFY(window);
+        const WindowActions& actions = window->actions();
+        const QString told = QStringLiteral("Select an event first.");
+        for (QAction* action : {actions.star, actions.take_back, actions.note}) {
+            window->events().panel().table()->clearSelection();
+            window->messages().dismissAll();
+            QVERIFY(action->isEnabled());
+            action->trigger();
+            QVERIFY2(window->messages().texts().contains(told), qPrintable(action->text()));
+        }
     }
 
     void marksOnTheTimelineAreThoseThatTheFilterLineLeaves() {

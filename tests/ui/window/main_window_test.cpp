@@ -110,8 +110,9 @@ class MainWindowTest : public QObject {
             QVERIFY2(!action->isEnabled(), qPrintable(action->text()));
         actions.workspaceAction(WorkspaceKind::label)->trigger();
         const LabelActions& label = window.labelling().actions();
-        for (const QAction* action : {label.draw, label.region_begins, label.next_object, label.next_attention,
-                                      label.proposals, label.next_frame, label.import_labels, label.track_on})
+        for (const QAction* action :
+             {label.draw, label.region_begins, label.next_object, label.next_attention, label.proposals,
+              label.next_frame, label.import_labels, label.track_on, label.object_class[0], label.nudge[0]})
             QVERIFY2(!action->isEnabled(), qPrintable(action->text()));
     }
 

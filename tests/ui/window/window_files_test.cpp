@@ -8,6 +8,7 @@
 #include <QMenu>
 #include <QMimeData>
 #include <QPushButton>
+#include <QScopeGuard>
 #include <QSignalSpy>
 #include <QStatusBar>
 #include <QTableView>
@@ -16,6 +17,7 @@
 #include "canvas/video_view.h"
 #include "review/runs/runs_panel.h"
 #include "review/tracks/tracks_panel.h"
+#include "session/background/due_write.h"
 #include "store/health/project_contents.h"
 #include "ui/session/session_support.h"
 #include "ui/support/ui_support.h"
@@ -68,6 +70,14 @@ class WindowFilesTest : public QObject {
     static bool asks(const MainWindow& window) {
         const auto boxes = window.findChildren<QMessageBox*>();
         return std::any_of(boxes.begin(), boxes.end(), [](const QMessageBox* box) { return box->isVisible(); });
+    }
+    static void drop(MainWindow& window, const std::filesystem::path& video) {
+        QMimeData data;
+        data.setUrls({QUrl::fromLocalFile(QString::fromStdString(video.string()))});
+        QDragEnterEvent enter({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+        QApplication::sendEvent(&window, &enter);
+        QDropEvent dropped({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+        QApplication::sendEvent(&window, &dropped);
     }
     std::filesystem::path images(const std::string& name, int frames = 12) {
         return test::writeScene(*home_ / name / "images", frames);
@@ -256,12 +266,7 @@ class WindowFilesTest : public QObject {
         window.actions().run->trigger();
         QVERIFY(waitFor(
             [&] { return !window.session().runs().empty() && window.session().runs().back().frames_done >= 8; }));
-        QMimeData data;
-        data.setUrls({QUrl::fromLocalFile(QString::fromStdString(folder.string()))});
-        QDragEnterEvent enter({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-        QApplication::sendEvent(&window, &enter);
-        QDropEvent drop({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-        QApplication::sendEvent(&window, &drop);
+        drop(window, folder);
         QVERIFY(asks(window));
         QSignalSpy ready(&window.session(), &ProjectSession::ready);
         QVERIFY(test::answer(window, QStringLiteral("Stop the run")));
@@ -271,6 +276,58 @@ class WindowFilesTest : public QObject {
         QVERIFY(waitFor([&] { return !window.canvas().frame().image.isNull(); }));
         QCOMPARE(window.session().currentFrame(), 0);
         QVERIFY(!says(window, QStringLiteral("was stopped")));  // that was the former video's
+    }
+
+    void aRunThatIsBegunWhileLastChangesAreSavedIsNotStoppedUnasked() {
+        const auto folder = images("a");
+        auto door = std::make_shared<Door>();
+        MainWindow window;
+        QVERIFY(opensMedia(window, test::sceneUnderTest(200, [door](FrameIndex f) { door->pass(f); })));
+        const auto at_last = qScopeGuard([door] { door->open(); });  // whoever waits there holds up the rest
+        window.session().settings().options.view.oblique = false;    // which reads elsewhere, too
+        door->closeFrom(20);
+        std::optional<DueWrite> work(std::in_place);
+        drop(window, folder);
+        QVERIFY(says(window, QStringLiteral("Saving your last changes first")));
+        window.actions().run->trigger();
+        QVERIFY(window.session().running());
+        work.reset();
+        QVERIFY(waitFor([&] { return asks(window); }));
+        QVERIFY(window.session().running());
+        QVERIFY(!window.session().opening());
+        QSignalSpy ready(&window.session(), &ProjectSession::ready);
+        QVERIFY(test::answer(window, QStringLiteral("Stop the run")));
+        door->open();
+        QVERIFY(ready.wait(kPatience_ms));
+        QCOMPARE(window.session().video()->frame_count, 12);
+    }
+
+    void whereTheRunThatIsShownIsRemovedOthersCanBeComparedStill() {
+        MainWindow window;
+        QVERIFY(runs(window, images("a")));
+        QVERIFY(waitFor([&] { return window.actions().run->isEnabled(); }));
+        QVERIFY(test::runAndWait(window.session()));
+        QVERIFY(waitFor([&] { return window.session().runs().size() == 2; }));
+        QVERIFY(window.session().currentRun());
+        window.session().removeRun(*window.session().currentRun());
+        QVERIFY(!window.session().currentRun());
+        QVERIFY(waitFor([&] { return window.actions().compare->isEnabled(); }));
+        QCOMPARE(window.session().runs().size(), std::size_t(1));
+        window.session().removeRun(window.session().runs().front().id);
+        QVERIFY(waitFor([&] { return !window.actions().compare->isEnabled(); }));
+    }
+
+    void whyIsAskedOnlyAboutFramesThatWereProcessed() {
+        MainWindow window;
+        QVERIFY(opensMedia(window, test::sceneUnderTest(60)));
+        window.session().settings().range = {0, 19};
+        QVERIFY(test::runAndWait(window.session()));
+        window.session().goToFrame(10);
+        QVERIFY(waitFor([&] { return window.canvas().frame().index == 10 && window.actions().why->isEnabled(); }));
+        window.session().goToFrame(50);
+        QVERIFY(waitFor([&] { return window.canvas().frame().index == 50 && !window.actions().why->isEnabled(); }));
+        window.session().goToFrame(11);
+        QVERIFY(waitFor([&] { return window.canvas().frame().index == 11 && window.actions().why->isEnabled(); }));
     }
 
     void theEndOfARunIsSummarised() {

@@ -1,11 +1,19 @@
+#include <QAbstractItemView>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDockWidget>
 #include <QLineEdit>
 #include <QMap>
 #include <QMenu>
 #include <QMenuBar>
+#include <QPushButton>
 #include <QSet>
 #include <QSettings>
+#include <QSlider>
 #include <QTest>
+#include <QToolButton>
 #include <QTreeWidget>
+#include <QVBoxLayout>
 #include <cmath>
 
 #include "canvas/layers/stages/cluster_layer.h"
@@ -16,6 +24,7 @@
 #include "canvas/video_view.h"
 #include "label/label_actions.h"
 #include "label/label_workspace.h"
+#include "label/lists/object_inspector.h"
 #include "ui/support/ui_support.h"
 #include "ui/support/ui_test.h"
 #include "ui/window/shown_window.h"
@@ -209,6 +218,97 @@ class WindowKeysTest : public QObject {
             window->actions().fill(menu, section);
             QVERIFY(!menu.actions().contains(window->actions().look_left));
         }
+    }
+
+    /// Space plays, arrows step and Alt with an arrow moves the picture, but not from a button, a slider or a box of
+    /// choices that keys have led to.
+    void whatHasTheFocusHasItsKeys() {
+        const auto window = windowWithVideo();
+        QVERIFY(window);
+        auto* dock = new QDockWidget(window.get());
+        auto* content = new QWidget(dock);
+        auto* button = new QPushButton(QStringLiteral("button"), content);
+        button->setCheckable(true);
+        auto* tool = new QToolButton(content);
+        tool->setText(QStringLiteral("tool"));
+        tool->setCheckable(true);
+        auto* box = new QCheckBox(QStringLiteral("switch"), content);
+        auto* slider = new QSlider(Qt::Horizontal, content);
+        auto* choices = new QComboBox(content);
+        choices->addItems({QStringLiteral("one"), QStringLiteral("two"), QStringLiteral("three")});
+        auto* rows = new QVBoxLayout(content);
+        for (QWidget* widget : std::initializer_list<QWidget*>{button, tool, box, slider, choices})
+            rows->addWidget(widget);
+        dock->setWidget(content);
+        window->addDockWidget(Qt::RightDockWidgetArea, dock);
+        dock->show();
+        QVERIFY(QTest::qWaitFor([&] { return choices->isVisible() && !window->canvas().frame().image.isNull(); },
+                                kPatience_ms));
+        ProjectSession& session = window->session();
+        for (QAbstractButton* one : std::initializer_list<QAbstractButton*>{button, tool, box}) {
+            one->setFocus(Qt::TabFocusReason);
+            QTest::keyClick(one, Qt::Key_Space);
+            QVERIFY2(one->isChecked() && !session.playback().playing(), qPrintable(one->text()));
+        }
+        QTest::keyClick(box, Qt::Key_Space, Qt::ShiftModifier);
+        QVERIFY2(box->isChecked() && window->actions().loop->isChecked(), "other keys are the window's");
+        slider->setFocus(Qt::TabFocusReason);
+        QTest::keyClick(slider, Qt::Key_Right);
+        QCOMPARE(slider->value(), 1);
+        QCOMPARE(session.currentFrame(), 0);
+
+        choices->setFocus(Qt::TabFocusReason);
+        QTest::keyClick(choices, Qt::Key_Down);
+        QCOMPARE(choices->currentIndex(), 1);
+        const QPointF middle = window->canvas().transform().imageFromView({0, 0});
+        for (const Qt::KeyboardModifier modifier : {Qt::AltModifier, Qt::NoModifier}) {
+            QTest::keyClick(choices, modifier == Qt::AltModifier ? Qt::Key_Down : Qt::Key_Space, modifier);
+            QVERIFY(choices->view()->isVisible());
+            QTest::keyClick(choices->view(), modifier == Qt::AltModifier ? Qt::Key_End : Qt::Key_Home);
+            QTest::keyClick(choices->view(), Qt::Key_Return);
+            QVERIFY(!choices->view()->isVisible());
+            QCOMPARE(choices->currentIndex(), modifier == Qt::AltModifier ? 2 : 0);
+        }
+        QCOMPARE(window->canvas().transform().imageFromView({0, 0}), middle);
+        QCOMPARE(session.currentFrame(), 0);
+        QVERIFY(!session.playback().playing());
+    }
+
+    void whoClicksAButtonGoesOnPlayingWithSpace() {
+        const auto window = windowWithVideo();
+        QVERIFY(window);
+        auto* dock = new QDockWidget(window.get());
+        auto* button = new QPushButton(QStringLiteral("button"), dock);
+        button->setCheckable(true);
+        button->setFocusPolicy(Qt::StrongFocus);
+        dock->setWidget(button);
+        window->addDockWidget(Qt::RightDockWidgetArea, dock);
+        dock->show();
+        QVERIFY(QTest::qWaitFor([&] { return button->isVisible() && !window->canvas().frame().image.isNull(); },
+                                kPatience_ms));
+        window->canvas().setFocus();
+        QTest::mouseClick(button, Qt::LeftButton);
+        QVERIFY(button->isChecked() && button->hasFocus());
+        QTest::keyClick(button, Qt::Key_Space);
+        QVERIFY(button->isChecked() && window->session().playback().playing());
+        QTest::keyClick(button, Qt::Key_Space);
+        QVERIFY(button->isChecked() && !window->session().playback().playing());
+    }
+
+    void hintsNameTheKeysThatWorkNow() {
+        const auto window = windowWithVideo();
+        QVERIFY(window);
+        QAction* checked = window->labelling().actions().checked;
+        const auto hint = [&] {
+            for (const auto* button : window->labelling().inspector().findChildren<QToolButton*>())
+                if (button->text() == QStringLiteral("Checked")) return button->toolTip();
+            return QString();
+        };
+        QVERIFY2(hint().endsWith(QStringLiteral("(V)")), qPrintable(hint()));
+        window->keys().setKeysOf(checked, {QKeySequence(Qt::Key_F4)});
+        QVERIFY2(hint().endsWith(QStringLiteral("(F4)")), qPrintable(hint()));
+        window->keys().setKeysOf(checked, {});
+        QVERIFY2(!hint().contains(QLatin1Char('(')) && !hint().isEmpty(), qPrintable(hint()));
     }
 
     void theSheetOfKeysIsSearchedByCommandAndKey() {

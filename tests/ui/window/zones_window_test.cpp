@@ -2,8 +2,10 @@
 
 #include <QApplication>
 #include <QLineEdit>
+#include <QMenu>
 #include <QTableView>
 #include <QTest>
+#include <QToolButton>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -19,6 +21,7 @@
 #include "review/events/event_review.h"
 #include "review/events/events_dock.h"
 #include "review/events/events_panel.h"
+#include "review/zones/zone_points_tool.h"
 #include "review/zones/zone_review.h"
 #include "review/zones/zone_tool.h"
 #include "review/zones/zones_model.h"
@@ -205,6 +208,46 @@ class ZonesWindowTest : public QObject {
         QTest::keyClick(&window->canvas(), Qt::Key_Z);
         QVERIFY(zones(*window).empty());
         QVERIFY(window->canvas().frame().zones.empty());
+    }
+
+    void aCornerIsDraggedInAnotherFrameAndUndone() {
+        const auto window = windowWithRun();
+        QVERIFY(window);
+        drawZone(*window);
+        const std::vector<cv::Point2d> drawn = zones(*window).begin()->second.zone.points;
+        const auto choose = [&](const QString& text) {
+            for (const auto* button : window->events().zones().panel().findChildren<QToolButton*>()) {
+                if (button->menu() == nullptr) continue;
+                emit button->menu()->aboutToShow();
+                for (QAction* action : button->menu()->actions())
+                    if (action->text() == text) return action->trigger(), true;
+            }
+            return false;
+        };
+        window->session().goToFrame(kDrawnIn + 10);
+        QVERIFY(test::shows(window->session(), kDrawnIn + 10));
+        QVERIFY(choose(QStringLiteral("Move its points")));
+        const ZonePointsTool& tool = window->events().zones().pointsTool();
+        QVERIFY(tool.active());
+        const QPointF corner(tool.points()[1].x, tool.points()[1].y);
+        QVERIFY(QLineF(corner, {drawn[1].x - 10, drawn[1].y}).length() < 1.5);  // the ground drifts
+        const auto on_canvas = [&](QPointF px) { return window->canvas().transform().viewFromImage(px).toPoint(); };
+        QTest::mousePress(&window->canvas(), Qt::LeftButton, {}, on_canvas(corner));
+        QTest::mouseMove(&window->canvas(), on_canvas(corner + QPointF(-10, 5)));
+        QTest::mouseMove(&window->canvas(), on_canvas(corner + QPointF(-20, 10)));
+        QTest::mouseRelease(&window->canvas(), Qt::LeftButton, {}, on_canvas(corner + QPointF(-20, 10)));
+        const Zone& zone = zones(*window).begin()->second.zone;
+        QCOMPARE(zone.frame, kDrawnIn);
+        QVERIFY(std::hypot(zone.points[1].x - drawn[1].x + 20, zone.points[1].y - drawn[1].y - 10) < 1.5);
+        for (const std::size_t other : {0, 2, 3}) QVERIFY(zone.points[other] == drawn[other]);
+        QVERIFY(QLineF(window->canvas().frame().zones[0].points[1], corner + QPointF(-20, 10)).length() < 1.5);
+        QTest::keyClick(&window->canvas(), Qt::Key_Z);
+        QVERIFY(zones(*window).begin()->second.zone.points == drawn);
+        QVERIFY(tool.active());
+        QVERIFY(QLineF({tool.points()[1].x, tool.points()[1].y}, corner).length() < 1e-6);
+        QTest::keyClick(&window->canvas(), Qt::Key_Escape);
+        QVERIFY(!tool.active());
+        QVERIFY(window->canvas().tool() == nullptr);
     }
 
     void aLineIsDrawnWithoutAMouse() {

@@ -52,8 +52,8 @@ void LabelFitting::start() {
             objects.push_back(*object);
     if (objects.empty()) {
         emit labels_.notice(
-            tr("There is nothing to refine: correct one box of an accepted proposal, or press R where its box is "
-               "right; the others follow."));
+            tr("There is nothing to refine: correct one box of an accepted proposal, or set a keyframe where its box "
+               "is right; the others follow."));
         return;
     }
     working_.emplace();

@@ -18,7 +18,7 @@ TrackingStrip::TrackingStrip(std::function<void()> stop, QWidget* parent) : QWid
     bar_->setTextVisible(false);
     bar_->setMaximumHeight(14);
     auto* stop_button = new QPushButton(tr("Stop"));
-    stop_button->setToolTip(tr("Stops tracking and keeps what is certain so far (Esc)"));
+    stop_button->setToolTip(tr("Stops tracking and keeps what is certain so far"));
     stop_button->setFocusPolicy(Qt::NoFocus);
     auto* line = new QHBoxLayout(this);
     line->setContentsMargins(8, 3, 8, 3);

@@ -268,7 +268,7 @@ void LabelImportDialog::accept() {
                 setBusy(false);
                 return;
             }
-            summary_ = tr("Imported %1 objects with %2 keyframes for %3 boxes. Ctrl+Z takes it back.")
+            summary_ = tr("Imported %1 objects with %2 keyframes for %3 boxes. Undo takes it back.")
                            .arg(planned.objects)
                            .arg(planned.keyframes)
                            .arg(planned.boxes);

@@ -13,6 +13,7 @@
 #include <QVBoxLayout>
 #include <utility>
 
+#include "label/label_actions.h"
 #include "widgets/empty_state.h"
 #include "widgets/layout/scrolled.h"
 #include "widgets/swatch.h"
@@ -22,10 +23,9 @@ namespace eyrie::ui {
 
 namespace {
 
-QToolButton* button(const QString& text, const QString& tip, bool checkable) {
+QToolButton* button(const QString& text, bool checkable) {
     auto* made = new QToolButton;
     made->setText(text);
-    made->setToolTip(tip);
     made->setCheckable(checkable);
     made->setFocusPolicy(Qt::TabFocus);
     made->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
@@ -41,12 +41,20 @@ QHBoxLayout* row(std::initializer_list<QWidget*> widgets) {
 
 }  // namespace
 
+void ObjectInspector::nameKeys(const LabelActions& actions) {
+    occluded_->setToolTip(withKey(tr("Not, partly or fully hidden from here"), *actions.occluded));
+    outside_->setToolTip(withKey(tr("Outside the image from here until the next keyframe"), *actions.outside));
+    ignore_->setToolTip(withKey(tr("Ignored by the evaluation from here until the next keyframe"), *actions.ignore));
+    checked_->setToolTip(withKey(tr("Reviewed in full and found right"), *actions.checked));
+    questionable_->setToolTip(withKey(tr("To be looked at again"), *actions.questionable));
+}
+
 ObjectInspector::ObjectInspector(QWidget* parent) : QWidget(parent) {
     pages_ = new QStackedLayout(this);
     empty_ = new EmptyState;
     empty_->setTexts(
-        tr("Nothing is selected. Click a box in the video or a row in the list; N goes to the next object, "
-           "U to the next unchecked one."));
+        tr("Nothing is selected. Click a box in the video or a row in the list, or go to the next object from the menu "
+           "Label."));
     auto* page = new QWidget;
     auto* layout = new QVBoxLayout(page);
     title_ = new QLabel;
@@ -62,7 +70,7 @@ ObjectInspector::ObjectInspector(QWidget* parent) : QWidget(parent) {
         label->setTextInteractionFlags(Qt::TextSelectableByMouse);
     }
     class_ = new QComboBox;
-    class_->setToolTip(tr("Class (keys 1 to 8); type a name and press Return for one of your own"));
+    class_->setToolTip(tr("Class; type a name and press Return for one of your own"));
     class_->setEditable(true);
     class_->setInsertPolicy(QComboBox::NoInsert);
     colour_ = new QToolButton;
@@ -73,11 +81,11 @@ ObjectInspector::ObjectInspector(QWidget* parent) : QWidget(parent) {
     colours->addAction(tr("A colour of its own…"), this, &ObjectInspector::chooseColour);
     class_colour_ = colours->addAction(tr("Colour of its class"), this, [this] { edits_.set_colour({}); });
     colour_->setMenu(colours);
-    occluded_ = button(tr("Occluded"), tr("Not, partly or fully hidden from here (O)"), true);
-    outside_ = button(tr("Outside"), tr("Outside the image from here until the next keyframe (Shift+L)"), true);
-    ignore_ = button(tr("Ignore"), tr("Ignored by the evaluation from here until the next keyframe (Shift+I)"), true);
-    checked_ = button(tr("Checked"), tr("Reviewed in full and found right (V)"), false);
-    questionable_ = button(tr("Questionable"), tr("To be looked at again (X)"), false);
+    occluded_ = button(tr("Occluded"), true);
+    outside_ = button(tr("Outside"), true);
+    ignore_ = button(tr("Ignore"), true);
+    checked_ = button(tr("Checked"), false);
+    questionable_ = button(tr("Questionable"), false);
     notes_ = new QLineEdit;
     notes_->setPlaceholderText(tr("Notes"));
     joins_heading_ = new QLabel(tr("May be the same vehicle (double-click to join):"));

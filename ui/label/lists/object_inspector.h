@@ -20,6 +20,7 @@ class QToolButton;
 namespace eyrie::ui {
 
 class EmptyState;
+class LabelActions;
 
 /// Another object that may be the same vehicle, as it is listed.
 struct JoinOffer {
@@ -69,6 +70,8 @@ class ObjectInspector : public QWidget {
  public:
     explicit ObjectInspector(QWidget* parent = nullptr);
 
+    /// Says in its hints by which keys the same is done.
+    void nameKeys(const LabelActions& actions);
     /// To be called before anything is shown.
     void setEdits(ObjectEdits edits) { edits_ = std::move(edits); }
     const ObjectEdits& edits() const { return edits_; }

@@ -75,9 +75,9 @@ ObjectsPanel::ObjectsPanel(ObjectsModel* model, QWidget* parent)
 void ObjectsPanel::explainNothing(bool with_video) {
     if (with_video)
         emptyState()->setTexts(
-            tr("Nothing is labelled yet. Press B and click the rear and the front of a vehicle, take over the tracks "
-               "of a run as proposals (P), or import labels from a file."),
-            tr("Draw an object (B)"));
+            tr("Nothing is labelled yet. Draw an object by clicking the rear and the front of a vehicle, take over the "
+               "tracks of a run as proposals, or import labels from a file."),
+            tr("Draw an object"));
     else
         emptyState()->setTexts(tr("Open a video first. The objects that are labelled in it are listed here."));
 }

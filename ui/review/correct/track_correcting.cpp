@@ -146,6 +146,8 @@ void TrackCorrecting::attempt(const QString& step, const MakeCorrections& make, 
             // While it was tried, another run or project may have been chosen.
             if (parts_.session.project() == project && parts_.session.currentRun() == run_id)
                 finish(step, *tried, kept);
+            else if (parts_.session.project() == project)
+                warn(tr("“%1” was given up: another run is shown now.").arg(step));
         });
     };
     following_ = query_.post(work, [this](const QString& failure) {
@@ -218,7 +220,7 @@ void TrackCorrecting::joinWithSelected() {
             const auto first = parts_.session.trackSummary(one), second = parts_.session.trackSummary(other);
             const bool keeps = first != nullptr && second != nullptr && first->first_frame <= second->first_frame;
             parts_.session.selectTrack(keeps ? one : other);
-            tell(tr("Tracks %1 and %2 are one now, track %3. Z takes it back.")
+            tell(tr("Tracks %1 and %2 are one now, track %3. Undo takes it back.")
                      .arg(one)
                      .arg(other)
                      .arg(keeps ? one : other));
@@ -237,7 +239,7 @@ void TrackCorrecting::split() {
         },
         [this, track = *selected, frame](const TriedCorrections& tried) {
             parts_.session.selectTrack(tried.newTrack());
-            tell(tr("Track %1 ends before frame %2; from there on it is track %3. Z takes it back.")
+            tell(tr("Track %1 ends before frame %2; from there on it is track %3. Undo takes it back.")
                      .arg(track)
                      .arg(frame)
                      .arg(tried.newTrack()));
@@ -264,9 +266,9 @@ void TrackCorrecting::reject() {
         const std::size_t made = tried.made.size();
         QString text =
             made == 1
-                ? tr("Track %1 is rejected: it remains only in the list of tracks. Z takes it back.")
+                ? tr("Track %1 is rejected: it remains only in the list of tracks. Undo takes it back.")
                       .arg(tracks[tried.made_at.front()])
-                : tr("%1 tracks are rejected: they remain only in the list of tracks. Z takes them back.").arg(made);
+                : tr("%1 tracks are rejected: they remain only in the list of tracks. Undo takes them back.").arg(made);
         if (const std::size_t refused = tracks.size() - made; refused > 0)
             text += QLatin1Char(' ') + (refused == 1 ? tr("1 other could not be rejected: %1.")
                                                      : tr("%1 others could not be rejected: %2.").arg(refused))
@@ -292,15 +294,15 @@ void TrackCorrecting::removeLast() {
     for (const auto& [id, track] : last) ids.push_back(id);
     if (ids.size() > 1) {
         if (parts_.review.removeCorrections(ids, tr("Take back %1 corrections").arg(ids.size())))
-            tell(tr("%1 corrections were taken back. Z brings them back.").arg(ids.size()));
+            tell(tr("%1 corrections were taken back. Undo brings them back.").arg(ids.size()));
         return;
     }
     const auto& [id, track] = *last.begin();
     const CorrectionKind kind = corrections.at(id).kind;
     const QString done = QString::fromUtf8(nameOf(kind));
     if (parts_.review.removeCorrections(ids, tr("Remove \"%1\" of track %2").arg(done).arg(track)))
-        tell((kind == CorrectionKind::reject ? tr("Track %1 is no longer %2. Z rejects it again.")
-                                             : tr("Track %1 is no longer %2. Z brings it back."))
+        tell((kind == CorrectionKind::reject ? tr("Track %1 is no longer %2. Undo rejects it again.")
+                                             : tr("Track %1 is no longer %2. Undo brings it back."))
                  .arg(track)
                  .arg(done));
 }
@@ -360,7 +362,7 @@ void TrackCorrecting::follow(const OrientedBox& box) {
     attempt(tr("Add a track"), make, [this](const TriedCorrections& tried) {
         const std::vector<Sighting>& seen = tried.vehicle.sightings;
         parts_.session.selectTrack(tried.newTrack());
-        tell(tr("Added track %1, frames %2 to %3. Backwards: %4. Forwards: %5. Z takes it back.")
+        tell(tr("Added track %1, frames %2 to %3. Backwards: %4. Forwards: %5. Undo takes it back.")
                  .arg(tried.newTrack())
                  .arg(seen.front().frame)
                  .arg(seen.back().frame)

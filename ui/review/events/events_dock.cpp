@@ -143,12 +143,18 @@ void EventsDock::bindCommands() {
                   {actions.relevant, [this] { judge(Judgement::relevant); }},
                   {actions.not_relevant, [this] { judge(Judgement::not_relevant); }},
                   {actions.unsure, [this] { judge(Judgement::unsure); }},
-                  {actions.take_back, [this] { review_->judge(placesInRows(), Judgement::open); }},
-                  {actions.star, [this] { toggleStars(); }},
+                  {actions.take_back,
+                   [this] {
+                       if (anySelected()) review_->judge(placesInRows(), Judgement::open);
+                   }},
+                  {actions.star,
+                   [this] {
+                       if (anySelected()) toggleStars();
+                   }},
                   {actions.note,
                    [this] {
                        parts_.docks.raise(DockId::events);
-                       panel_->editNote(panel_->currentId());
+                       if (anySelected()) panel_->editNote(panel_->currentId());
                    }},
                   {actions.undo_verdict, [this] { review_->undo(); }},
                   {actions.redo_verdict, [this] { review_->redo(); }},
@@ -396,6 +402,13 @@ std::vector<std::size_t> EventsDock::placesInRows() const {
     return places;
 }
 
+/// Tells where none is.
+bool EventsDock::anySelected() {
+    const bool any = !panel_->selectedIds().isEmpty();
+    if (!any) parts_.messages.showTopic(kEventsTopic, MessageKind::info, tr("Select an event first."));
+    return any;
+}
+
 void EventsDock::judge(Judgement judgement) {
     const QList<int> ids = panel_->selectedIds();
     if (ids.isEmpty()) {
@@ -419,7 +432,7 @@ void EventsDock::toggleStars() {
         const Verdict* verdict = review_->verdictAt(place);
         return verdict != nullptr && verdict->starred;
     });
-    if (!places.empty()) review_->setStarred(places, !all_starred);
+    review_->setStarred(places, !all_starred);
 }
 
 }  // namespace eyrie::ui

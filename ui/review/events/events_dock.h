@@ -91,6 +91,7 @@ class EventsDock : public QObject {
     void enableActions();
     void chooseAndShow(std::optional<int> id);
     void judge(Judgement judgement);
+    bool anySelected();
     void toggleStars();
     /// Selected rows as places in the queue: what is written, starred and shown belongs to the first event of each.
     std::vector<std::size_t> selectedPlaces() const;

@@ -78,16 +78,16 @@ QString whyNoTracks(const RunFacts& facts) {
             return tr("Nothing moved differently from the ground. Vehicles slower than motion.min_speed are not seen.");
         case NothingFollowed::no_detections:
             return tr(
-                "Something moved, but nothing looked like a vehicle. Check the GSD, or press Shift+W on a vehicle to "
+                "Something moved, but nothing looked like a vehicle. Check the GSD, or ask “Why?” about a vehicle to "
                 "see why it was missed.");
         case NothingFollowed::all_rejected:
             return tr(
                 "Every detection was rejected as a duplicate, an outlier or for its size. Check the GSD, or "
-                "press Alt+X to see the rejected ones.");
+                "show rejected detections in the menu Overlays.");
         case NothingFollowed::none_confirmed:
             return tr("Vehicles were detected, but none often enough to become a track (tracking.confirm_hits).");
         case NothingFollowed::all_dropped:
-            return tr("Every track was dropped when the tracks were finished. Press Shift+W on a vehicle to see why.");
+            return tr("Every track was dropped when the tracks were finished. Ask “Why?” about a vehicle to see why.");
     }
     return {};
 }

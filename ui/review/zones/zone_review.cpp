@@ -8,6 +8,7 @@
 #include "events/zones/zone_file.h"
 #include "review/events/event_review.h"
 #include "review/zones/zone_colours.h"
+#include "review/zones/zone_points_tool.h"
 #include "review/zones/zone_tool.h"
 #include "review/zones/zones_model.h"
 #include "review/zones/zones_panel.h"
@@ -33,7 +34,9 @@ ZoneReview::ZoneReview(const ZoneParts& parts, QObject* parent)
       parts_(parts),
       model_(new ZonesModel(this)),
       panel_(new ZonesPanel(model_, parts.actions)),
-      tool_(new ZoneTool(parts.canvas, this)) {
+      tool_(new ZoneTool(parts.canvas, this)),
+      points_tool_(new ZonePointsTool(parts.canvas, this)) {
+    points_tool_->setMoved([this](std::size_t point, cv::Point2d to) { movePoint(point, to); });
     tool_->setFinished([this](ZoneShape shape, const auto& points) { add(shape, points); });
     tool_->setRefused([this](const QString& why) {
         parts_.messages.showTopic(kZonesTopic, MessageKind::warning, tr("%1 Go on, or press Esc.").arg(sentence(why)));
@@ -78,7 +81,11 @@ void ZoneReview::bindCommands() {
                                       {actions.draw_zone, [this](bool on) { startDrawing(ZoneShape::area, on); }},
                                       {actions.draw_line, [this](bool on) { startDrawing(ZoneShape::line, on); }},
                                       {actions.draw_arrow, [this](bool on) { startDrawing(ZoneShape::arrow, on); }},
-                                      {actions.deselect, [this] { tool_->cancel(); }},
+                                      {actions.deselect,
+                                       [this] {
+                                           tool_->cancel();
+                                           points_tool_->end();
+                                       }},
                                   });
     panel_->setCommands({
         .remove =
@@ -98,6 +105,7 @@ void ZoneReview::bindCommands() {
                         judge);
                 });
             },
+        .move_points = [this](int id) { startMoving(id); },
         .set_anchor = [this](int id, ZoneAnchor anchor) { setAnchor(id, anchor); },
         .read_file = [this](const QString& path) { readFile(path); },
         .write_file = [this](const QString& path) { writeFile(path); },
@@ -107,7 +115,10 @@ void ZoneReview::bindCommands() {
 
 void ZoneReview::setActive(bool active) {
     active_ = active;
-    if (!active) tool_->cancel();
+    if (!active) {
+        tool_->cancel();
+        points_tool_->end();
+    }
     enableActions();
     showMarks();
 }
@@ -120,6 +131,7 @@ void ZoneReview::startDrawing(ZoneShape shape, bool wanted) {
         return;
     }
     tool_->cancel();
+    points_tool_->end();
     emit listWanted();
     parts_.session.playback().pause();
     drawn_in_ = parts_.canvas.frame().index;
@@ -155,15 +167,8 @@ void ZoneReview::setAnchor(int id, ZoneAnchor anchor) {
     const auto stored = parts_.review.zones().find(id);
     if (stored == parts_.review.zones().end() || stored->second.zone.anchor == anchor) return;
     const Zone& zone = stored->second.zone;
-    const auto points =
-        zone.anchor == ZoneAnchor::image ? std::optional(zone.points) : carried(zone.points, zone.frame, frame);
-    if (!points) {
-        parts_.messages.showTopic(kZonesTopic, MessageKind::warning,
-                                  tr("The ground of this frame is not connected with that of frame %1, where the zone "
-                                     "was drawn; go to a frame that shows it.")
-                                      .arg(zone.frame));
-        return;
-    }
+    const auto points = inFrameShown(zone);
+    if (!points) return tellUnconnected(zone);
     parts_.review.changeZones([&](const ReviewSet& set, const Judge& judge, const NewId&) {
         return changeZone(
             set, id,
@@ -174,6 +179,53 @@ void ZoneReview::setAnchor(int id, ZoneAnchor anchor) {
             },
             judge);
     });
+}
+
+void ZoneReview::tellUnconnected(const Zone& zone) {
+    parts_.messages.showTopic(kZonesTopic, MessageKind::warning,
+                              tr("The ground of this frame is not connected with that of frame %1, where the zone was "
+                                 "drawn; go to a frame that shows it.")
+                                  .arg(zone.frame));
+}
+
+// ---- moving points --------------------------------------------------------------------------------------------------
+
+void ZoneReview::startMoving(int id) {
+    const auto stored = parts_.review.zones().find(id);
+    if (stored == parts_.review.zones().end() || !mayRead()) return;
+    tool_->cancel();
+    parts_.session.playback().pause();
+    const Zone& zone = stored->second.zone;
+    const auto points = inFrameShown(zone);
+    if (!points) return tellUnconnected(zone);
+    moved_zone_ = id;
+    points_tool_->start(*points, zone.shape == ZoneShape::area);
+}
+
+void ZoneReview::movePoint(std::size_t point, cv::Point2d to) {
+    const auto stored = parts_.review.zones().find(moved_zone_);
+    if (stored == parts_.review.zones().end() || point >= stored->second.zone.points.size()) return;
+    // The others stay as they were drawn, where they were.
+    const Zone& zone = stored->second.zone;
+    const int frame = parts_.canvas.frame().index;
+    const auto there =
+        zone.anchor == ZoneAnchor::image ? std::optional(std::vector{to}) : carried({to}, frame, zone.frame);
+    if (!there) return tellUnconnected(zone);
+    parts_.review.changeZones([&](const ReviewSet& set, const Judge& judge, const NewId&) {
+        return changeZone(
+            set, moved_zone_, [&](StoredZone& changed) { changed.zone.points[point] = there->front(); }, judge);
+    });
+    followMoving();  // also where the change was refused
+}
+
+void ZoneReview::followMoving() {
+    if (!points_tool_->active()) return;
+    const auto stored = parts_.review.zones().find(moved_zone_);
+    auto points = stored != parts_.review.zones().end() ? inFrameShown(stored->second.zone) : std::nullopt;
+    if (points)
+        points_tool_->setPoints(std::move(*points));
+    else
+        points_tool_->end();
 }
 
 // ---- files ----------------------------------------------------------------------------------------------------------
@@ -246,7 +298,10 @@ QString ZoneReview::hintText() const {
 
 void ZoneReview::enableActions() {
     const bool possible = active_ && parts_.review.canMark();
-    if (!possible) tool_->cancel();
+    if (!possible) {
+        tool_->cancel();
+        points_tool_->end();
+    }
     parts_.actions.draw_zone->setEnabled(possible);
     parts_.actions.draw_line->setEnabled(possible);
     parts_.actions.draw_arrow->setEnabled(possible);
@@ -268,6 +323,11 @@ std::optional<std::vector<cv::Point2d>> ZoneReview::carried(const std::vector<cv
     return there;
 }
 
+std::optional<std::vector<cv::Point2d>> ZoneReview::inFrameShown(const Zone& zone) const {
+    if (zone.anchor == ZoneAnchor::image) return zone.points;
+    return carried(zone.points, zone.frame, parts_.canvas.frame().index);
+}
+
 void ZoneReview::showMarks() {
     const int frame = parts_.canvas.frame().index;
     std::vector<ZoneMark> marks;
@@ -275,8 +335,7 @@ void ZoneReview::showMarks() {
     for (const auto& [id, stored] : parts_.review.zones()) {
         if (!stored.shown) continue;
         const Zone& zone = stored.zone;
-        const auto points =
-            zone.anchor == ZoneAnchor::image ? std::optional(zone.points) : carried(zone.points, zone.frame, frame);
+        const auto points = inFrameShown(zone);
         if (!points) continue;
         ZoneMark mark;
         mark.name = QString::fromStdString(zone.name);
@@ -288,6 +347,7 @@ void ZoneReview::showMarks() {
         marks.push_back(std::move(mark));
     }
     parts_.canvas.setZones(frame, std::move(marks));
+    followMoving();
 }
 
 }  // namespace eyrie::ui

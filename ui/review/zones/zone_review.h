@@ -16,6 +16,7 @@ class MessageBar;
 class ProjectSession;
 class VideoView;
 class WindowActions;
+class ZonePointsTool;
 class ZoneTool;
 class ZonesModel;
 class ZonesPanel;
@@ -43,6 +44,7 @@ class ZoneReview : public QObject {
     ZonesPanel& panel() { return *panel_; }
     ZonesModel& model() { return *model_; }
     ZoneTool& tool() { return *tool_; }
+    ZonePointsTool& pointsTool() { return *points_tool_; }
 
     /// Whether drawing is wanted: labelling draws otherwise.
     void setActive(bool active);
@@ -62,6 +64,10 @@ class ZoneReview : public QObject {
     void startDrawing(ZoneShape shape, bool wanted);
     void add(ZoneShape shape, const std::vector<cv::Point2d>& points);
     void setAnchor(int id, ZoneAnchor anchor);
+    void startMoving(int id);
+    void movePoint(std::size_t point, cv::Point2d to);
+    /// The points that are moved lie elsewhere in another frame, or when somebody undoes.
+    void followMoving();
     void showMarks();
     void enableActions();
     void carryDrawing();
@@ -70,6 +76,9 @@ class ZoneReview : public QObject {
     void takeFrom(const QString& path, const std::vector<Zone>& zones);
     /// What is wrong with a file.
     void tellFault(const QString& fault);
+    /// Where the points of a zone lie in the frame shown; nothing where nobody knows.
+    std::optional<std::vector<cv::Point2d>> inFrameShown(const Zone& zone) const;
+    void tellUnconnected(const Zone& zone);
     /// Points of one frame as another shows the same ground; nothing where nobody knows.
     std::optional<std::vector<cv::Point2d>> carried(const std::vector<cv::Point2d>& points, int from, int to) const;
     QString hintText() const;
@@ -78,7 +87,9 @@ class ZoneReview : public QObject {
     ZonesModel* model_;
     ZonesPanel* panel_;
     ZoneTool* tool_;
+    ZonePointsTool* points_tool_;
     bool active_ = true;
+    int moved_zone_ = 0;     ///< whose points are moved
     int drawn_in_ = 0;       ///< frame that the points being drawn are meant in
     BackgroundQuery files_;  ///< reads are questions, writes are posted; last: stops before the rest goes
 };

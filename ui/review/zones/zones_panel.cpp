@@ -102,7 +102,7 @@ void ZonesPanel::buildButtons(const WindowActions& actions) {
     more_ = new QToolButton(this);
     more_->setText(QStringLiteral("⋯"));
     more_->setAccessibleName(tr("More about zones"));
-    more_->setToolTip(tr("Colour, import and export"));
+    more_->setToolTip(tr("Points, colour, import and export"));
     more_->setPopupMode(QToolButton::InstantPopup);
     auto* menu = new QMenu(more_);
     connect(menu, &QMenu::aboutToShow, this, [this, menu] {
@@ -119,6 +119,7 @@ void ZonesPanel::fillMenu(QMenu& menu) {
     const ZoneEntry* entry = model_->recordAt(model_->rowOf(id));
     if (entry != nullptr) {
         menu.addAction(tr("Rename"), QKeySequence(Qt::Key_F2), this, [this, id] { editName(id); });
+        menu.addAction(tr("Move its points"), this, [this, id] { commands_.move_points(id); });
         QMenu* colours = menu.addMenu(tr("Colour"));
         const QString names[] = {tr("Blue"), tr("Orange"), tr("Pink"),   tr("Yellow"),
                                  tr("Cyan"), tr("Red"),    tr("Violet"), tr("White")};

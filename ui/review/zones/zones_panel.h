@@ -24,6 +24,7 @@ struct ZonesPanelCommands {
     std::function<void(const std::vector<int>& ids)> remove = [](const auto&) {};
     /// Nothing: the colour by number.
     std::function<void(int id, std::optional<QColor> colour)> set_colour = [](int, std::optional<QColor>) {};
+    std::function<void(int id)> move_points = [](int) {};
     std::function<void(int id, ZoneAnchor anchor)> set_anchor = [](int, ZoneAnchor) {};
     std::function<void(const QString& path)> read_file = [](const QString&) {};
     std::function<void(const QString& path)> write_file = [](const QString&) {};

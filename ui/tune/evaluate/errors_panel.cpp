@@ -137,7 +137,7 @@ void ErrorsPanel::resizeEvent(QResizeEvent* event) {
 
 void ErrorsPanel::fillMenu(QMenu& menu, int id) {
     menu.addAction(tr("Go there"), this, [this, id] { commands_.go_to(id); });
-    menu.addAction(tr("Why?\tShift+W"), this, [this, id] { commands_.ask_why(id); });
+    menu.addAction(tr("Why?"), this, [this, id] { commands_.ask_why(id); });
     menu.addAction(tr("The ground truth is wrong here…"), this, [this, id] { commands_.correct_truth(id); });
     const ErrorRow* row = errors_->recordAt(errors_->rowOf(id));
     if (row == nullptr) return;

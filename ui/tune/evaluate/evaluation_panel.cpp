@@ -123,7 +123,7 @@ QWidget* EvaluationPanel::buildResult() {
     for (LineChart* chart : {counts_, ratios_, score_curve_}) chart->setFixedHeight(190);
     report_ = new QToolButton;
     report_->setText(tr("Report…"));
-    report_->setToolTip(tr("Write everything as one HTML or PDF file (Ctrl+Shift+R)"));
+    report_->setToolTip(tr("Write everything as one HTML or PDF file"));
     report_progress_ = new QProgressBar;
     report_progress_->hide();
     auto* report = new QHBoxLayout;

@@ -135,8 +135,9 @@ void EvaluationSession::refresh() {
             if (evaluation) task.tell([this, evaluation] { adopt(evaluation, {}); });
         } catch (const NothingLabelled&) {
             task.tell([this] {
-                adopt(nullptr, tr("Nobody has labelled this video yet. Draw or import labels (Ctrl+2), or choose a "
-                                  "file of ground truth."));
+                adopt(nullptr,
+                      tr("Nobody has labelled this video yet. Draw or import labels in the workspace Label, or "
+                         "choose a file of ground truth."));
             });
         }
     };

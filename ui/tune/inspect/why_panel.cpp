@@ -94,8 +94,9 @@ void WhyPanel::refresh() {
     if (session_.following()) return empty(tr("To ask during the run, go to a frame that it has processed."));
     if (!why_.asked())
         return empty(
-            tr("Point at a place in the picture, hit or missed, and press Shift+W, or choose “Why?” from its context "
-               "menu. Every comparison that was made there is listed, and the one that decided."));
+            tr("Choose “Why?” from the context menu of a place in the picture, hit or missed, or point at it and press "
+               "the key of “Why?” in the menu View. Every comparison that was made there is listed, and the one that "
+               "decided."));
     if (!why_.problem().isEmpty()) return empty(why_.problem());
     if (!view) return empty(why_.waiting() ? tr("Looking at the frames before this one…") : notProcessedText());
     const bool current = view->frame == session_.viewFrame().index && !why_.waiting();

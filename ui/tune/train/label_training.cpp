@@ -166,8 +166,9 @@ void LabelTraining::work(const TrainingWish& wish, const BackgroundTask& task) {
     auto sequences = readProjects(wish, say, stop);
     if (stop.stop_requested()) return end([this] { emit stopped(); });
     if (sequences.empty())
-        throw Error(ErrorKind::input,
-                    "these projects have no labelled vehicles; label some (Ctrl+2), or import ground truth");
+        throw Error(
+            ErrorKind::input,
+            "these projects have no labelled vehicles; label some in the workspace Label, or import ground truth");
     std::vector<LabelledImage> train;
     std::vector<LabelledImage> test;
     auto report = std::make_shared<TrainingReport>();

@@ -385,7 +385,7 @@ void TablePanel::fillOrders(QMenu& menu) {
     }
     if (!header->isSortIndicatorClearable()) return;
     menu.addSeparator();
-    menu.addAction(tr("None of them"), this, [this] { table_->sortByColumn(-1, Qt::AscendingOrder); })
+    menu.addAction(tr("No order"), this, [this] { table_->sortByColumn(-1, Qt::AscendingOrder); })
         ->setEnabled(now >= 0);
 }
 

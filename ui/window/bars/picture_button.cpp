@@ -1,7 +1,6 @@
 #include "window/bars/picture_button.h"
 
 #include <QHBoxLayout>
-#include <QKeyEvent>
 #include <QLabel>
 #include <QMenu>
 #include <QSlider>
@@ -41,18 +40,6 @@ PictureButton::PictureButton(ProjectSession& session, const WindowActions& actio
     onEdited(
         this, [this] { apply(); }, brightness_, contrast_);
     bindSwitches(this, {{actions_.even_picture, [this] { apply(); }}});
-}
-
-bool PictureButton::event(QEvent* event) {
-    // The space bar opens the menu of the button that has the focus; elsewhere in the window it plays.
-    if (event->type() == QEvent::ShortcutOverride) {
-        const auto* key = static_cast<QKeyEvent*>(event);
-        if (key->key() == Qt::Key_Space && key->modifiers() == Qt::NoModifier) {
-            event->accept();
-            return true;
-        }
-    }
-    return QToolButton::event(event);
 }
 
 void PictureButton::buildMenu() {

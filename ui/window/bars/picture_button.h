@@ -22,9 +22,6 @@ class PictureButton : public QToolButton {
     /// As filmed.
     void reset();
 
- protected:
-    bool event(QEvent* event) override;
-
  private:
     void buildMenu();
     void apply();

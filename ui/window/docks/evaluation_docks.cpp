@@ -328,8 +328,8 @@ void EvaluationDocks::correctTruth() {
         labelling_->labels().select(std::nullopt);
         messages_.showMessage(
             MessageKind::info,
-            tr("If an object is here, draw it (B) or take the track over as a proposal (P); the run is scored "
-               "again after every change."));
+            tr("If an object is here, draw it or take the track over as a proposal; the run is scored again after "
+               "every change."));
     }
 }
 
