@@ -1,8 +1,7 @@
 #include "events/stored_events.h"
 
 #include <algorithm>
-#include <map>
-#include <set>
+#include <unordered_map>
 
 #include "core/error.h"
 #include "correction/corrected_run.h"
@@ -35,20 +34,22 @@ StoredTracks readTracks(const RunStore& store, const RunRecord& run, CorrectedTr
         if (registration.state == RegistrationState::failed) ++found.unregistered;
     });
     footage.camera = CameraMotion(steps);
-    std::set<TrackId> confirmed;
+    std::unordered_map<TrackId, std::size_t> places;  // an hour has a million states to be placed
     for (const TrackSummary& track : trackSummaries(store, run.id, corrected)) {
-        if (track.confirmed) confirmed.insert(track.id);
+        if (!track.confirmed) continue;
+        places.emplace(track.id, found.tracks.size());
+        found.tracks.emplace_back().id = track.id;
     }
-    std::map<TrackId, EventTrack> tracks;
+    std::vector<double> scores(found.tracks.size());  // the same in all states of a finished run
     visitTrackStates(store, run.id, corrected, [&](FrameIndex frame, const TrackState& state) {
-        if (!confirmed.contains(state.id)) return;
-        EventTrack& track = tracks[state.id];
-        track.id = state.id;
-        track.boxes.push_back({frame, state.box});
-        // The same in all states of a finished run.
-        found.scores[state.id] = state.score;
+        const auto place = places.find(state.id);
+        if (place == places.end()) return;
+        found.tracks[place->second].boxes.push_back({frame, state.box});
+        scores[place->second] = state.score;
     });
-    for (auto& [id, track] : tracks) found.tracks.push_back(std::move(track));
+    for (std::size_t i = 0; i < scores.size(); ++i)
+        if (!found.tracks[i].boxes.empty()) found.scores[found.tracks[i].id] = scores[i];
+    std::erase_if(found.tracks, [](const EventTrack& track) { return track.boxes.empty(); });
     found.corrections = std::move(corrected);
     return found;
 }

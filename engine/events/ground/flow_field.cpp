@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "core/geometry/angle.h"
 
@@ -18,12 +17,12 @@ std::int32_t FlowField::cellOf(double metres) const {
     return static_cast<std::int32_t>(std::clamp(std::floor(metres / (radius_ / 2)), -1e9, 1e9));
 }
 
-std::uint64_t FlowField::key(std::int32_t column, std::int32_t row) {
-    return std::uint64_t{static_cast<std::uint32_t>(column)} << 32 | static_cast<std::uint32_t>(row);
-}
-
 FlowField::Votes FlowField::votesOf(const GroundPath& path) const {
-    std::unordered_map<std::uint64_t, cv::Point2d> sums;
+    struct Passed {
+        cv::Point2d sum{0, 0};  ///< of directions
+        bool any = false;
+    };
+    CellTiles<Passed> passed;
     const double cell = radius_ / 2;
     cv::Point2d before(0, 0);
     bool any = false;
@@ -31,9 +30,11 @@ FlowField::Votes FlowField::votesOf(const GroundPath& path) const {
         const std::int32_t column = cellOf(at.x), row = cellOf(at.y);
         for (std::int32_t dy = -2; dy <= 2; ++dy) {
             for (std::int32_t dx = -2; dx <= 2; ++dx) {
-                const cv::Point2d centre((column + dx + 0.5) * cell, (row + dy + 0.5) * cell);
-                if (std::hypot(centre.x - at.x, centre.y - at.y) <= radius_)
-                    sums[key(column + dx, row + dy)] += direction;
+                const cv::Point2d way = cv::Point2d((column + dx + 0.5) * cell, (row + dy + 0.5) * cell) - at;
+                if (!(way.dot(way) <= radius_ * radius_)) continue;
+                Passed& place = passed.at(column + dx, row + dy);
+                place.sum += direction;
+                place.any = true;
             }
         }
     };
@@ -54,25 +55,36 @@ FlowField::Votes FlowField::votesOf(const GroundPath& path) const {
         any = true;
     }
     Votes votes;
-    votes.reserve(sums.size());
-    for (const auto& [place, sum] : sums) votes.emplace(place, std::atan2(sum.y, sum.x));
+    for (const auto& [key, places] : passed.tiles()) {
+        auto& bins = votes.bins_.tile(key);
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            if (!places[i].any) continue;
+            bins[i] = static_cast<std::uint8_t>(binOf(std::atan2(places[i].sum.y, places[i].sum.x)) + 1);
+            ++votes.places_;
+        }
+    }
     return votes;
 }
 
 void FlowField::add(const Votes& votes) {
-    for (const auto& [place, direction] : votes) ++places_[place][binOf(direction)];
+    for (const auto& [key, bins] : votes.bins_.tiles()) {
+        auto& places = places_.tile(key);
+        for (std::size_t i = 0; i < bins.size(); ++i)
+            if (bins[i] > 0) ++places[i][bins[i] - std::size_t{1}];
+    }
 }
 
 FlowField::Others FlowField::othersAt(cv::Point2d place, double direction, double against_angle,
                                       const Votes& own) const {
-    const std::uint64_t at = key(cellOf(place.x), cellOf(place.y));
-    const auto found = places_.find(at);
-    if (found == places_.end()) return {};
-    Bins bins = found->second;
-    const auto mine = own.find(at);
-    if (mine != own.end()) --bins[binOf(mine->second)];
+    const std::int32_t column = cellOf(place.x), row = cellOf(place.y);
+    const Bins* found = places_.find(column, row);
+    if (found == nullptr) return {};
+    Bins bins = *found;
+    const std::uint8_t* mine = own.bins_.find(column, row);
+    if (mine != nullptr && *mine > 0) --bins[*mine - std::size_t{1}];
     Others others;
     for (std::size_t i = 0; i < bins.size(); ++i) {
+        if (bins[i] == 0) continue;
         const double turn = std::abs(turnBetween(direction, 2 * kPi * (static_cast<double>(i) + 0.5) / kBins));
         others.all += bins[i];
         if (turn <= kAlong) others.along += bins[i];

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <unordered_map>
-#include <vector>
 
 #include "core/geometry/angle.h"
+#include "events/ground/cell_tiles.h"
 #include "events/ground/ground_path.h"
 
 namespace eyrie {
@@ -19,8 +19,16 @@ class FlowField {
 
     static constexpr double kAlong = kPi / 3;  ///< radians: directions that differ by no more are alike
 
-    /// Directions (radians) of one track by places it passes.
-    using Votes = std::unordered_map<std::uint64_t, double>;
+    /// The places that one track passes, and in which direction.
+    class Votes {
+     public:
+        std::size_t size() const { return places_; }
+
+     private:
+        friend class FlowField;
+        CellTiles<std::uint8_t> bins_;  ///< the bin plus 1; 0: not passed
+        std::size_t places_ = 0;
+    };
     Votes votesOf(const GroundPath& path) const;
     void add(const Votes& votes);
 
@@ -38,10 +46,9 @@ class FlowField {
     using Bins = std::array<std::int32_t, kBins>;
     static std::size_t binOf(double direction);
     std::int32_t cellOf(double metres) const;
-    static std::uint64_t key(std::int32_t column, std::int32_t row);
 
     double radius_;
-    std::unordered_map<std::uint64_t, Bins> places_;
+    CellTiles<Bins> places_;
 };
 
 }  // namespace eyrie

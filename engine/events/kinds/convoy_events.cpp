@@ -29,19 +29,25 @@ struct FollowedFor {
     FrameIndex last = 0;
 };
 
+/// No more than they lie apart, m, and quicker told.
+double leastBetween(const GroundSample& a, const GroundSample& b) {
+    return std::max(std::abs(b.at.x - a.at.x), std::abs(b.at.y - a.at.y)) * (a.by_place + b.by_place) / 2;
+}
+
 /// After which time `follower` passes the place where `leader` is at that moment; nothing when it does not.
 std::optional<double> headwayOf(const EventScene& scene, const GroundPath& follower, std::size_t at,
                                 const GroundSample& leader) {
     const EventOptions& o = scene.options;
     const GroundSample& now = follower.samples[at];
-    const double furthest = o.convoy_headway_s * std::max(now.speed, leader.speed) * kSameSpeed;
-    if (metresBetween(now, leader) > furthest) return std::nullopt;
     if (now.speed > kSameSpeed * leader.speed || leader.speed > kSameSpeed * now.speed) return std::nullopt;
+    const double furthest = o.convoy_headway_s * std::max(now.speed, leader.speed) * kSameSpeed;
+    if (leastBetween(now, leader) > furthest || metresBetween(now, leader) > furthest) return std::nullopt;
     double nearest = o.convoy_lane_m;
     std::optional<double> headway;
     for (const GroundSample& then : std::span(follower.samples).subspan(at + 1)) {
         const double seconds = secondsBetween(now, then, scene.scale);
         if (seconds > o.convoy_headway_s) break;
+        if (leastBetween(then, leader) >= nearest) continue;
         const double distance = metresBetween(then, leader);
         if (distance >= nearest) continue;
         if (then.velocity.dot(leader.velocity) < kSameWayCos * then.speed * leader.speed) continue;
@@ -51,20 +57,24 @@ std::optional<double> headwayOf(const EventScene& scene, const GroundPath& follo
     return headway;
 }
 
+/// A path that moves at one moment.
+struct Present {
+    std::size_t path = 0;
+    std::size_t sample = 0;  ///< of that moment
+};
+
 using Pair = std::pair<std::size_t, std::size_t>;  ///< follower, leader
 
 /// Who drives right behind whom at one moment.
-void lookUp(const EventScene& scene, FrameIndex frame, const std::vector<std::size_t>& present,
+void lookUp(const EventScene& scene, FrameIndex frame, const std::vector<Present>& present,
             std::map<Pair, std::vector<Following>>& found) {
-    for (const std::size_t b : present) {
+    for (const auto& [b, at] : present) {
         const GroundPath& follower = scene.paths[b];
-        const std::size_t at = sampleAt(follower, frame);
         std::optional<double> least;
         std::size_t leader = b;
-        for (const std::size_t a : present) {
+        for (const auto& [a, there] : present) {
             if (a == b || scene.paths[a].stretch != follower.stretch || scene.paths[a].id() == follower.id()) continue;
-            const auto headway =
-                headwayOf(scene, follower, at, scene.paths[a].samples[sampleAt(scene.paths[a], frame)]);
+            const auto headway = headwayOf(scene, follower, at, scene.paths[a].samples[there]);
             if (headway && (!least || *headway < *least)) least = headway, leader = a;
         }
         if (least) found[{b, leader}].push_back({frame, *least});
@@ -144,13 +154,13 @@ void addConvoy(const EventScene& scene, const std::vector<FollowedFor>& links, s
 void findConvoys(const EventScene& scene, std::vector<Event>& events) {
     const Footage& footage = scene.ground.footage();
     const int step = std::max(1, static_cast<int>(std::lround(kSampled_s * scene.scale.frame_rate_hz)));
-    std::map<FrameIndex, std::vector<std::size_t>> present;
+    std::map<FrameIndex, std::vector<Present>> present;
     for (std::size_t p = 0; p < scene.paths.size(); ++p) {
         const GroundPath& path = scene.paths[p];
         if (!path.measured) continue;
         for (std::size_t i = 0; i < path.samples.size(); ++i) {
             const FrameIndex frame = path.samples[i].frame;
-            if ((frame - footage.first_frame) % step == 0 && path.samples[i].moving) present[frame].push_back(p);
+            if ((frame - footage.first_frame) % step == 0 && path.samples[i].moving) present[frame].push_back({p, i});
         }
     }
     std::map<Pair, std::vector<Following>> found;

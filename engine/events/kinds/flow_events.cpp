@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/geometry/angle.h"
 #include "events/ground/flow_field.h"
@@ -38,10 +39,11 @@ FlowVerdict verdictOn(double direction, const DrawnWay& right, double against) {
     return turn <= FlowField::kAlong ? FlowVerdict::along : FlowVerdict::none;
 }
 
-PathVerdicts verdictsOn(const EventScene& scene, const GroundPath& path, const Flow& flow) {
+/// `near` are the votes of the path in flow.near.
+PathVerdicts verdictsOn(const EventScene& scene, const GroundPath& path, const Flow& flow,
+                        const FlowField::Votes& near) {
     const EventOptions& o = scene.options;
-    const FlowField::Votes near = flow.near.votesOf(path);
-    const FlowField::Votes wide = flow.wide.votesOf(path);
+    std::optional<FlowField::Votes> wide;  // where nobody passes, which is rare
     const double against = radiansFromDegrees(o.against_angle_deg);
     PathVerdicts told{std::vector<FlowVerdict>(path.samples.size(), FlowVerdict::none),
                       std::vector<const Zone*>(path.samples.size(), nullptr)};
@@ -60,8 +62,9 @@ PathVerdicts verdictsOn(const EventScene& scene, const GroundPath& path, const F
             verdicts[i] = FlowVerdict::against;
         } else if (others.along >= o.flow_tracks) {
             verdicts[i] = FlowVerdict::along;
-        } else if (others.all == 0 && flow.wide.othersAt(sample.at, direction, against, wide).all == 0) {
-            verdicts[i] = FlowVerdict::off;
+        } else if (others.all == 0) {
+            if (!wide) wide = flow.wide.votesOf(path);
+            if (flow.wide.othersAt(sample.at, direction, against, *wide).all == 0) verdicts[i] = FlowVerdict::off;
         }
     }
     return told;
@@ -147,25 +150,33 @@ void addLeaving(const EventScene& scene, const GroundPath& path, const std::vect
     }
 }
 
+/// Searches the paths on one ground.
+void searchFlow(const EventScene& scene, const std::vector<const GroundPath*>& paths, Flow flow,
+                std::vector<Event>& events) {
+    std::vector<FlowField::Votes> near;
+    for (const GroundPath* path : paths) {
+        flow.near.add(near.emplace_back(flow.near.votesOf(*path)));
+        flow.wide.add(flow.wide.votesOf(*path));
+    }
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        const auto verdicts = verdictsOn(scene, *paths[i], flow, near[i]);
+        addAgainst(scene, *paths[i], verdicts, events);
+        addLeaving(scene, *paths[i], verdicts.of_sample, events);
+    }
+}
+
 }  // namespace
 
 void findFlowEvents(const EventScene& scene, const std::vector<Zone>& zones, std::vector<Event>& events) {
     const EventOptions& o = scene.options;
-    std::vector<Flow> flows;
-    for (std::size_t i = 0; i < scene.ground.all().size(); ++i)
-        flows.push_back(
-            {FlowField(o.flow_radius_m), FlowField(o.off_flow_m), DrawnWays(scene, zones, static_cast<int>(i))});
-    for (const GroundPath& path : scene.paths) {
-        if (!path.measured) continue;
-        Flow& flow = flows[static_cast<std::size_t>(path.stretch)];
-        flow.near.add(flow.near.votesOf(path));
-        flow.wide.add(flow.wide.votesOf(path));
-    }
-    for (const GroundPath& path : scene.paths) {
-        if (!path.measured) continue;
-        const auto verdicts = verdictsOn(scene, path, flows[static_cast<std::size_t>(path.stretch)]);
-        addAgainst(scene, path, verdicts, events);
-        addLeaving(scene, path, verdicts.of_sample, events);
+    std::vector<std::vector<const GroundPath*>> on_ground(scene.ground.all().size());
+    for (const GroundPath& path : scene.paths)
+        if (path.measured) on_ground[static_cast<std::size_t>(path.stretch)].push_back(&path);
+    for (std::size_t i = 0; i < on_ground.size(); ++i) {
+        if (on_ground[i].empty()) continue;
+        searchFlow(scene, on_ground[i],
+                   {FlowField(o.flow_radius_m), FlowField(o.off_flow_m), DrawnWays(scene, zones, static_cast<int>(i))},
+                   events);
     }
 }
 

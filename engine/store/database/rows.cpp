@@ -6,7 +6,8 @@ namespace eyrie {
 
 double RowReader::real() {
     const SQLite::Column column = statement_.getColumn(next_++);
-    return column.isNull() ? std::numeric_limits<double>::quiet_NaN() : column.getDouble();
+    const double value = column.getDouble();  // 0 of nothing; only then it is asked for once more
+    return value == 0 && column.isNull() ? std::numeric_limits<double>::quiet_NaN() : value;
 }
 
 std::string RowReader::text() {

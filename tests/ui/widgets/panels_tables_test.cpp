@@ -11,6 +11,7 @@
 #include <QTest>
 #include <QTimer>
 #include <QToolTip>
+#include <algorithm>
 #include <memory>
 
 #include "panels_support.h"
@@ -236,6 +237,42 @@ class TablesTest : public QObject {
         panel.sensitivity()->setValue(70);
         panel.setThreshold(0);
         QCOMPARE(panel.sensitivity()->value(), 100);
+    }
+
+    void whatARunLeftOutHasNoRowsUntilItIsAskedFor() {
+        constexpr int kTracks = 20'000;
+        TracksModel model;
+        TracksPanel panel(&model);
+        panel.setThreshold(0.5);
+        std::vector<TrackSummary> tracks = several(kTracks, sampleTrack);
+        for (std::size_t i = 0; i < tracks.size(); ++i) {
+            tracks[i].confirmed = true;
+            tracks[i].doubtful = i % 101 != 0;
+            tracks[i].score = tracks[i].doubtful ? static_cast<double>(i * 7919 % 500) / 1000 : 0.9;
+        }
+        const int result = static_cast<int>(
+            std::count_if(tracks.begin(), tracks.end(), [](const TrackSummary& track) { return !track.doubtful; }));
+        panel.show();
+        QSignalSpy given(&model, &QAbstractItemModel::rowsInserted);
+        model.setTracks(tracks, {});
+        QCOMPARE(model.rowCount(), result);
+        QCOMPARE(given.count(), 1);
+        QCOMPARE(panel.countText(), QStringLiteral("%1 of %1 tracks").arg(result));
+        const QAbstractItemModel* shown = panel.table()->model();
+        // However they lie among each other, they come and go at once.
+        QSignalSpy come(shown, &QAbstractItemModel::rowsInserted), gone(shown, &QAbstractItemModel::rowsRemoved);
+        panel.selectId(102);
+        panel.sensitivity()->setValue(100);
+        QCOMPARE(shown->rowCount(), kTracks);
+        QCOMPARE(panel.currentId(), 102);
+        panel.sensitivity()->setValue(75);
+        const auto from_here =
+            std::count_if(tracks.begin(), tracks.end(), [](const TrackSummary& track) { return track.score >= 0.25; });
+        QCOMPARE(shown->rowCount(), static_cast<int>(from_here));
+        panel.sensitivity()->setValue(50);
+        QCOMPARE(model.rowCount(), result);
+        QVERIFY(come.count() + gone.count() <= 3);
+        QCOMPARE(panel.currentId(), 102);
     }
 
     void rejectedTracksStayListedInGreyAndAreCountedApart() {

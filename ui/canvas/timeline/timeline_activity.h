@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QPainterPath>
 #include <QPalette>
 #include <vector>
 
@@ -23,6 +24,14 @@ class TimelineActivity {
     QColor trackColour() const;
     QColor vectorColour() const;
     void paint(QPainter& painter, const QRectF& row, const TimelineAxis& axis) const;
+
+    struct Curves {
+        QPainterPath tracks;   ///< an area
+        QPainterPath vectors;  ///< a line
+    };
+    /// As they are painted in a row. Frames that share a column of pixels are drawn as one: tracks by the most, vectors
+    /// from the most to the fewest. Of an hour, more points would paint for longer than a frame is shown.
+    Curves curves(const QRectF& row, const TimelineAxis& axis) const;
 
  private:
     const std::vector<TimelineFrame>& frames_;

@@ -19,7 +19,8 @@ void TimelineView::paintEvent(QPaintEvent*) {
     painter.fillRect(rect(), palette().window());
     if (axis_.frameCount() == 0) return;
     const Rows row = rows();
-    paintNames(painter, row);
+    const TimelineActivity curves = activity();
+    paintNames(painter, row, curves);
     paintRuler(painter, row.ruler);
     painter.save();
     painter.setClipRect(QRectF(axis_.left() - 1, 0, axis_.right() - axis_.left() + 2, height()));
@@ -28,7 +29,7 @@ void TimelineView::paintEvent(QPaintEvent*) {
         paintMarks(painter, row.marks);
         paintKinds(painter, row.kinds);
         paintWatched(painter, row.watched);
-        activity().paint(painter, row.activity, axis_);
+        curves.paint(painter, row.activity, axis_);
         paintTrackLife(painter, row.track);
     }
     paintSeams(painter);
@@ -36,7 +37,7 @@ void TimelineView::paintEvent(QPaintEvent*) {
     paintCursor(painter);
 }
 
-void TimelineView::paintNames(QPainter& painter, const Rows& row) const {
+void TimelineView::paintNames(QPainter& painter, const Rows& row, const TimelineActivity& curves) const {
     painter.setPen(palette().color(QPalette::PlaceholderText));
     const auto name = [&](const QRectF& beside, const QString& text) {
         painter.drawText(QRectF(8, beside.top(), axis_.left() - 16, beside.height()), Qt::AlignVCenter | Qt::AlignRight,
@@ -55,7 +56,6 @@ void TimelineView::paintNames(QPainter& painter, const Rows& row) const {
         name(row.activity, tr("Activity"));
     } else {
         // Name, colour and height of both curves.
-        const TimelineActivity curves = activity();
         const double half = row.activity.height() / 2;
         painter.setPen(curves.trackColour());
         name(row.activity.adjusted(0, 0, 0, -half), tr("tracks (max %1)").arg(curves.mostTracks()));

@@ -110,7 +110,7 @@ class TimelineView : public QWidget {
     };
     Rows rows() const;
     void layoutAxis();
-    void paintNames(QPainter& painter, const Rows& row) const;
+    void paintNames(QPainter& painter, const Rows& row, const TimelineActivity& curves) const;
     void paintRuler(QPainter& painter, const QRectF& row) const;
     int wantedHeight() const;
     void paintQuality(QPainter& painter, const QRectF& row) const;

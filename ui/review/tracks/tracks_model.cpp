@@ -1,6 +1,8 @@
 #include "review/tracks/tracks_model.h"
 
 #include <QGuiApplication>
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "widgets/display_text.h"
@@ -12,8 +14,25 @@ namespace eyrie::ui {
 void TracksModel::setTracks(std::vector<TrackSummary> tracks, const SceneScale& scale) {
     const bool other_units = scale.gsd_known != scale_.gsd_known;
     scale_ = scale;
-    replaceRecords(std::move(tracks));
+    all_ = std::move(tracks);
+    replaceRecords(given());
     if (other_units) emit headerDataChanged(Qt::Horizontal, 0, column_count - 1);
+}
+
+void TracksModel::setLeastScore(double score) {
+    const double before = std::exchange(least_score_, score);
+    const double lower = std::min(before, score), higher = std::max(before, score);
+    const bool any_between = std::any_of(all_.begin(), all_.end(), [&](const TrackSummary& track) {
+        return track.doubtful && track.score >= lower && track.score < higher;
+    });
+    if (any_between) mergeRecords(given());
+}
+
+std::vector<TrackSummary> TracksModel::given() const {
+    std::vector<TrackSummary> tracks;
+    std::copy_if(all_.begin(), all_.end(), std::back_inserter(tracks),
+                 [this](const TrackSummary& track) { return !track.doubtful || track.score >= least_score_; });
+    return tracks;
 }
 
 void TracksModel::setLikeness(std::shared_ptr<const LikenessByTrack> likeness) {

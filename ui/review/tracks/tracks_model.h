@@ -43,6 +43,9 @@ class TracksModel : public RecordModel<TrackSummary> {
     explicit TracksModel(QObject* parent = nullptr) : RecordModel(parent) {}
 
     void setTracks(std::vector<TrackSummary> tracks, const SceneScale& scale);
+    /// Tracks that the run left out have rows from this score on: of an hour there may be many times as many as of the
+    /// result, and nobody sees them until they are asked for. At first all have.
+    void setLeastScore(double score);
     /// How like the tracks are to one of them; null: nobody asked, or it is not known yet.
     void setLikeness(std::shared_ptr<const LikenessByTrack> likeness);
     /// What the tracks did, for how fast they were and how long they stood; null while nobody knows.
@@ -52,7 +55,7 @@ class TracksModel : public RecordModel<TrackSummary> {
     const ClockOfFrames& clock() const { return clock_; }
     const SceneScale& scale() const { return scale_; }
 
-    /// All, ascending id.
+    /// Those that have a row, ascending id.
     const std::vector<TrackSummary>& tracks() const { return records(); }
 
     int columnCount(const QModelIndex& parent = {}) const override { return parent.isValid() ? 0 : column_count; }
@@ -70,6 +73,11 @@ class TracksModel : public RecordModel<TrackSummary> {
     std::optional<double> stoodSecondsOf(const TrackSummary& track) const;
     QVariant sortValueOf(const TrackSummary& track, int column) const;
     double secondsOf(const TrackSummary& track) const;
+    /// What has a row.
+    std::vector<TrackSummary> given() const;
+
+    std::vector<TrackSummary> all_;
+    double least_score_ = 0;
     SceneScale scale_;
     std::shared_ptr<const LikenessByTrack> likeness_;
     std::shared_ptr<const DoingsByTrack> doings_;

@@ -108,6 +108,7 @@ double TracksPanel::minScore() const {
 }
 
 void TracksPanel::useSensitivity() {
+    keepPlace([this] { tracks_->setLeastScore(minScore()); });
     filterTracks();
     commands_.use_min_score(minScore());
 }

@@ -139,9 +139,11 @@ void ReviewDocks::explainNoTracks() {
 
 void ReviewDocks::showTracks() {
     explainNoTracks();
-    tracks_->setThreshold(session_.runData() ? session_.runData()->score_threshold : 0);
-    tracks_model_->setTracks(session_.runData() ? session_.runData()->tracks : std::vector<TrackSummary>(),
-                             session_.scale());
+    const auto& data = session_.runData();
+    // What is gone goes first: without a threshold all that it held back would be listed for a moment.
+    if (!data) tracks_model_->setTracks({}, session_.scale());
+    tracks_->setThreshold(data ? data->score_threshold : 0);
+    if (data) tracks_model_->setTracks(data->tracks, session_.scale());
     tracks_->selectId(session_.selectedTrack().value_or(0));
 }
 
