@@ -138,8 +138,12 @@ void OpenedFiles::endWork(const QString& doing, std::function<void()> then) {
         parts_.messages.showTopic(kLeavingTopic, MessageKind::info, tr("Saving your last changes first."));
         leave_wait_.begin([this, doing, then](bool) {
             parts_.messages.dismissTopic(kLeavingTopic);
-            // A run may have been begun meanwhile.
-            if (mayLeave()) parts_.guard.beforeEnding(doing, then);
+            if (!mayLeave()) return;
+            // A run may have been begun meanwhile, and by its end there may be more to save.
+            if (session_.running())
+                endWork(doing, then);
+            else
+                then();
         });
     });
 }

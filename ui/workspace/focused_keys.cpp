@@ -44,16 +44,20 @@ FocusedKeys::FocusedKeys(QObject* parent) : QObject(parent) {
 }
 
 bool FocusedKeys::eventFilter(QObject* watched, QEvent* event) {
-    if (event->type() != QEvent::ShortcutOverride && event->type() != QEvent::FocusIn) return false;
+    const QEvent::Type type = event->type();
+    if (type != QEvent::ShortcutOverride && type != QEvent::FocusIn && type != QEvent::MouseButtonPress) return false;
     const auto* widget = qobject_cast<const QWidget*>(watched);
     if (widget == nullptr) return false;
-    if (event->type() == QEvent::FocusIn) {
+    if (type == QEvent::FocusIn) {
         const Qt::FocusReason reason = static_cast<QFocusEvent*>(event)->reason();
         // Back from a menu or another window, it is as it was.
-        if (reason == Qt::MouseFocusReason)
-            clicked_ = widget;
-        else if (reason != Qt::PopupFocusReason && reason != Qt::ActiveWindowFocusReason)
-            clicked_.clear();
+        const bool back =
+            reason == Qt::PopupFocusReason || reason == Qt::MenuBarFocusReason || reason == Qt::ActiveWindowFocusReason;
+        if (!back) gotFocus(*widget, reason == Qt::MouseFocusReason);
+        return false;
+    }
+    if (type == QEvent::MouseButtonPress) {  // keys may have led to it before
+        if (widget == QApplication::focusWidget()) gotFocus(*widget, true);
         return false;
     }
     if (!wants(*widget, *static_cast<QKeyEvent*>(event))) return false;
@@ -61,9 +65,14 @@ bool FocusedKeys::eventFilter(QObject* watched, QEvent* event) {
     return true;
 }
 
+void FocusedKeys::gotFocus(const QWidget& widget, bool by_mouse) {
+    clicked_.removeIf([&](const auto& one) { return one.isNull() || one->window() == widget.window(); });
+    if (by_mouse) clicked_.append(&widget);
+}
+
 bool FocusedKeys::wants(const QWidget& widget, const QKeyEvent& key) const {
     if (widget.window()->windowType() == Qt::Popup) return true;
-    if (&widget == clicked_) return false;
+    if (clicked_.contains(&widget)) return false;
     const Qt::KeyboardModifiers modifiers = key.modifiers() & ~Qt::KeypadModifier;  // arrows beside the digits, too
     if (const auto* box = qobject_cast<const QComboBox*>(&widget)) {
         // One that can be written in has what is written already.

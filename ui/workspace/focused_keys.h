@@ -1,5 +1,6 @@
 #pragma once
 
+#include <QList>
 #include <QObject>
 #include <QPointer>
 
@@ -22,9 +23,10 @@ class FocusedKeys : public QObject {
     bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+    void gotFocus(const QWidget& widget, bool by_mouse);
     bool wants(const QWidget& widget, const QKeyEvent& key) const;
 
-    QPointer<const QWidget> clicked_;  ///< got the focus by the mouse
+    QList<QPointer<const QWidget>> clicked_;  ///< what has the focus by the mouse, at most one of each window
 };
 
 }  // namespace eyrie::ui

@@ -199,6 +199,13 @@ class ToolsByKeysTest : public QObject {
         QCOMPARE(moved.size(), std::size_t(1));
         QCOMPARE(moved[0].first, std::size_t(1));
         QVERIFY(near(moved[0].second, {120, 45}));
+        canvas.key(Qt::Key_Return);
+        tool.setPoints({{40, 40}, {120, 45}, {110, 100}});  // another frame, say: nothing is held any more
+        canvas.key(Qt::Key_Return);
+        canvas.go(Qt::Key_Right, 10);
+        canvas.key(Qt::Key_Return);
+        QCOMPARE(moved.size(), std::size_t(2));
+        QVERIFY(near(moved[1].second, {130, 45}));
         canvas.key(Qt::Key_Escape);
         QVERIFY(!tool.active() && canvas.view.tool() == nullptr);
     }

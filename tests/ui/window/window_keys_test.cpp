@@ -1,7 +1,10 @@
 #include <QAbstractItemView>
+#include <QApplication>
 #include <QCheckBox>
 #include <QComboBox>
+#include <QDialog>
 #include <QDockWidget>
+#include <QFocusEvent>
 #include <QLineEdit>
 #include <QMap>
 #include <QMenu>
@@ -291,8 +294,34 @@ class WindowKeysTest : public QObject {
         QVERIFY(button->isChecked() && button->hasFocus());
         QTest::keyClick(button, Qt::Key_Space);
         QVERIFY(button->isChecked() && window->session().playback().playing());
+        // Where the focus goes in a dialog does not matter here, nor that it comes back from the menu bar.
+        QDialog dialog(window.get());
+        QFocusEvent into(QEvent::FocusIn, Qt::TabFocusReason);
+        QApplication::sendEvent(&dialog, &into);
+        QFocusEvent back(QEvent::FocusIn, Qt::MenuBarFocusReason);
+        QApplication::sendEvent(button, &back);
         QTest::keyClick(button, Qt::Key_Space);
         QVERIFY(button->isChecked() && !window->session().playback().playing());
+    }
+
+    void whatKeysHaveLedToIsClickedStill() {
+        const auto window = windowWithVideo();
+        QVERIFY(window);
+        auto* dock = new QDockWidget(window.get());
+        auto* button = new QPushButton(QStringLiteral("button"), dock);
+        button->setCheckable(true);
+        dock->setWidget(button);
+        window->addDockWidget(Qt::RightDockWidgetArea, dock);
+        dock->show();
+        QVERIFY(QTest::qWaitFor([&] { return button->isVisible() && !window->canvas().frame().image.isNull(); },
+                                kPatience_ms));
+        button->setFocus(Qt::TabFocusReason);
+        QVERIFY(button->hasFocus());
+        QTest::mouseClick(button, Qt::LeftButton);
+        QVERIFY(button->isChecked());
+        QTest::keyClick(button, Qt::Key_Space);
+        QVERIFY(button->isChecked() && window->session().playback().playing());
+        window->session().playback().pause();
     }
 
     void hintsNameTheKeysThatWorkNow() {

@@ -226,7 +226,10 @@ class ZonesWindowTest : public QObject {
         };
         window->session().goToFrame(kDrawnIn + 10);
         QVERIFY(test::shows(window->session(), kDrawnIn + 10));
+        window->actions().measure->trigger();
+        QVERIFY(window->actions().measure->isChecked());
         QVERIFY(choose(QStringLiteral("Move its points")));
+        QVERIFY(!window->actions().measure->isChecked());
         const ZonePointsTool& tool = window->events().zones().pointsTool();
         QVERIFY(tool.active());
         const QPointF corner(tool.points()[1].x, tool.points()[1].y);

@@ -40,9 +40,10 @@ void ZonePointsTool::setPoints(Points points) {
         Points before = points_;
         before[held_->point] = held_->from;
         if (before == points) return;  // what is held is held still
-        held_.reset();
     }
+    const bool let_go = std::exchange(held_, std::nullopt).has_value();
     points_ = std::move(points);
+    if (const auto cross = canvas_.keyPointer(); let_go && cross) canvas_.moveKeyPointer(*cross);  // it holds no more
     canvas_.update();
 }
 

@@ -198,6 +198,10 @@ void ZoneReview::startMoving(int id) {
     const Zone& zone = stored->second.zone;
     const auto points = inFrameShown(zone);
     if (!points) return tellUnconnected(zone);
+    // What else is done on the canvas ends, or its keys would stay its own.
+    const WindowActions& actions = parts_.actions;
+    for (QAction* other : {actions.measure, actions.control_points, actions.add_track})
+        if (other->isChecked()) other->trigger();
     moved_zone_ = id;
     points_tool_->start(*points, zone.shape == ZoneShape::area);
 }
