@@ -92,6 +92,40 @@ TEST_F(Compare, JsonHasIntervalsAndTheProjectTheRuns) {
     const auto kept = comparisons(project);
     ASSERT_EQ(kept.size(), 1U);
     EXPECT_EQ(nlohmann::json::parse(kept[0].report), json);
+    const auto told = nlohmann::json::parse(test::runLoaded({"info", at("p.eyrie"), "--json"}).output);
+    ASSERT_EQ(told["comparisons"].size(), 1U);
+    EXPECT_EQ(told["comparisons"][0]["figures"], json);
+}
+
+TEST_F(Compare, InfoShowsTheFiguresThatAProjectKeeps) {
+    {
+        ProjectFile project = ProjectFile::openOrCreate(at("kept.eyrie"));
+        addComparison(project, "/clips/town.mp4", R"({"results":[
+            {"name":"gradient + tracking","overlap":0.3,"precision":0.9,"recall":0.8,"f_score":0.847,"n_modp":0.61,
+             "mota":0.5,"id_switches":7,"ms_per_frame":12.34},
+            {"name":"mser","overlap":0.1,"precision":1,"recall":0.25,"f_score":0.4,"n_modp":0.5,"mota":null}, 5]})");
+        addComparison(project, "/clips/other.mp4", "not JSON");
+        addComparison(project, "/clips/third.mp4", R"({"results":{}})");
+    }
+    const auto info = test::runLoaded({"info", at("kept.eyrie")});
+    ASSERT_EQ(info.exit_code, 0) << info.errors;
+    EXPECT_THAT(info.output, HasSubstr("  comparison 1: /clips/town.mp4, 20"));
+    // A column of figures is 11 wide, the methods' as wide as the longest name.
+    const std::string titles =
+        "           T_ov  precision     recall    f-score     N-MODP       MOTA        IDS         ms\n";
+    EXPECT_THAT(info.output, HasSubstr("    " + std::string(12, ' ') + titles));
+    EXPECT_THAT(info.output,
+                HasSubstr("    gradient + tracking        0.3      0.900      0.800      0.847      0.610      "
+                          "0.500          7       12.3\n"));
+    EXPECT_THAT(info.output,
+                HasSubstr("    mser                       0.1      1.000      0.250      0.400      0.500          "
+                          "-          -          -\n"));
+    EXPECT_THAT(info.output, HasSubstr("  comparison 2: /clips/other.mp4, 20"));
+    EXPECT_THAT(info.output, testing::ContainsRegex("third.mp4, [^\n]*\n    no figures that can be read\n"));
+    const auto told = nlohmann::json::parse(test::runLoaded({"info", at("kept.eyrie"), "--json"}).output);
+    ASSERT_EQ(told["comparisons"].size(), 3U);
+    EXPECT_EQ(told["comparisons"][0]["figures"]["results"][0]["id_switches"], 7);
+    EXPECT_TRUE(told["comparisons"][1]["figures"].is_null());
 }
 
 TEST_F(Compare, ThePeerStandsBesideAndHasParametersOfItsOwn) {

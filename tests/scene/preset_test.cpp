@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <opencv2/core.hpp>
@@ -11,11 +12,15 @@
 #include "core/geometry/angle.h"
 #include "core/geometry/homography.h"
 #include "core/geometry/oriented_box.h"
+#include "scene/preset_facts.h"
 #include "scene/scene_truth.h"
 
 /// The facts of Teutsch table 7.1 and §7.2, without painting a pixel.
 namespace eyrie::preset_test {
 namespace {
+
+using test::keyFacts;
+using test::pictureFacts;
 
 double groundSampling(const SceneDescription& scene, int frame) {
     Homography ground_from_image;
@@ -113,6 +118,14 @@ TEST(ScenePreset, seq1HoldsWhatTable71Says) {
     expectNoCollisions(scene);
     expectRealTraffic(scene);
     EXPECT_GT(scene.parked.size(), 100U);
+    EXPECT_EQ(pictureFacts(scene),
+              "25 Hz, 401 of 768 x 576; 0.62 0.5 0.46; 0.5 0.22 1.8 0.16; 1.05 140 0.08 0.12; 72 1 1 0 0 16; "
+              "1.6 0.35 0.0012 5; 0 0");
+    ASSERT_EQ(scene.camera.keys.size(), 4U);
+    EXPECT_EQ(keyFacts(scene, 0), "0; -105 -6; 420; 14 7; 1217.391");
+    EXPECT_EQ(keyFacts(scene, 1), "110; -32 4; 417; 9 8; 1217.391");
+    EXPECT_EQ(keyFacts(scene, 2), "250; 62 8; 424; -6 6; 1229.565");
+    EXPECT_EQ(keyFacts(scene, 3), "401; 158 2; 422; -17 8; 1217.391");
 }
 
 TEST(ScenePreset, seq2HoldsWhatTable71Says) {
@@ -127,6 +140,13 @@ TEST(ScenePreset, seq2HoldsWhatTable71Says) {
     // Before trees hide about a third of them: as many again as vehicles.
     EXPECT_GT(load.other_boxes, 1250);
     EXPECT_GT(std::hypot(scene.sun.shadow.x, scene.sun.shadow.y), 1.8) << "long shadows";
+    EXPECT_EQ(pictureFacts(scene),
+              "25 Hz, 201 of 640 x 480; 1.5 1.35 0.42; 0.45 0.25 1.7 0.15; 1 132 0.06 0.12; 74 1 1 0 0 16; "
+              "2.2 0.5 0.0016 6; 0 0");
+    ASSERT_EQ(scene.camera.keys.size(), 3U);
+    EXPECT_EQ(keyFacts(scene, 0), "0; -44 -8; 360; -24 5; 1267.606");
+    EXPECT_EQ(keyFacts(scene, 1), "90; -6 4; 360; -14 9; 1286.62");
+    EXPECT_EQ(keyFacts(scene, 2), "201; 46 4; 365; 4 7; 1267.606");
     expectNoCollisions(scene);
 }
 
@@ -146,6 +166,20 @@ TEST(ScenePreset, egtest01HoldsWhatTable71Says) {
     }
     EXPECT_GT(most / least, 1.15) << "changing height and angle";
     EXPECT_NEAR((least + most) / 2, 0.23, 0.05) << "vehicles of about 10 × 20 px";
+    EXPECT_EQ(pictureFacts(scene),
+              "30 Hz, 1821 of 320 x 240; -0.5 0.55 0.42; 0.45 0.3 1.6 0.12; 0.85 125 0.05 0.12; 80 0 1 0 0 16; "
+              "2 0.3 0.002 8; 0 0");
+    EXPECT_TRUE(scene.upright_truth);
+    const auto& keys = scene.camera.keys;
+    ASSERT_EQ(keys.size(), 28U);
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        const double share = static_cast<double>(i) / 27;
+        EXPECT_EQ(keys[i].frame, 70.0 * static_cast<double>(i));
+        EXPECT_NEAR(degreesFromRadians(keys[i].heading), -35 + 95 * share, 1e-9);
+        EXPECT_NEAR(keys[i].height, 340 - 90 * share, 25);
+        EXPECT_NEAR(degreesFromRadians(keys[i].tilt), 48 - 30 * (1 - share) * (1 - share), 4);
+        EXPECT_NEAR(keys[i].focal_px, 1581.4, 158.2);
+    }
     expectNoCollisions(scene);
     expectRealTraffic(scene);
 }
@@ -157,7 +191,63 @@ TEST(ScenePreset, demoHasMixedTraffic) {
     for (const MovingObject& object : scene.objects) kinds.insert(object.look.kind);
     EXPECT_GE(kinds.size(), 6U);
     EXPECT_GE(loadOf(scene).fewest_objects, 10);
+    EXPECT_EQ(pictureFacts(scene),
+              "25 Hz, 250 of 640 x 480; 0.72 0.42 0.4; 0.35 0.18 1.3 0.11; 0.98 122 0.03 0.12; 86 0 1 0 0 8; "
+              "1.3 0.25 0.001 7; 0 0");
+    ASSERT_EQ(scene.camera.keys.size(), 3U);
+    EXPECT_EQ(keyFacts(scene, 0), "0; -12 4; 190; -22 24; 1117.647");
+    EXPECT_EQ(keyFacts(scene, 1), "120; 2 0; 186; -10 27; 1162.353");
+    EXPECT_EQ(keyFacts(scene, 2), "250; 13 -5; 194; 7 24; 1117.647");
     expectNoCollisions(scene);
+}
+
+TEST(ScenePreset, atTheStopsVehiclesStandForLongAndShort) {
+    const SceneDescription scene = scenePreset("stops");
+    EXPECT_EQ(pictureFacts(scene),
+              "25 Hz, 1300 of 400 x 300; 0.4 0.3 0.44; 0.4 0.2 1.5 0.13; 0.8 118 0.05 0.12; 80 0 1 0 0 4; "
+              "1.2 0.25 0.001 8; 0 0");
+    EXPECT_EQ(scene.gsd_m_per_px, 0.2);
+    ASSERT_EQ(scene.camera.keys.size(), 4U);
+    EXPECT_EQ(keyFacts(scene, 0), "0; -6 3; 300; -8 9; 1500");
+    EXPECT_EQ(keyFacts(scene, 1), "450; 4 -2; 295; 3 6; 1530");
+    EXPECT_EQ(keyFacts(scene, 2), "900; -3 -4; 305; 12 8; 1500");
+    EXPECT_EQ(keyFacts(scene, 3), "1300; 3 3; 300; 5 10; 1500");
+    double longest_s = 0;
+    for (const MovingObject& object : scene.objects) {
+        double still_s = 0;
+        for (const ObjectPose& pose : object.poses) {
+            still_s = pose.speed < 0.2 ? still_s + 1 / 25.0 : 0;
+            longest_s = std::max(longest_s, still_s);
+        }
+    }
+    EXPECT_GT(longest_s, 20);
+}
+
+TEST(ScenePreset, onPatrolOneVehicleDrivesAgainstTheFlow) {
+    const SceneDescription scene = scenePreset("patrol");
+    EXPECT_EQ(pictureFacts(scene),
+              "10 Hz, 6000 of 640 x 480; -0.4 0.35 0.44; 0.4 0.1 1.5 0.13; 0.8 118 0.05 0.12; 85 0 1 0 0 4; "
+              "1 0.2 0.001 8; 0 0");
+    EXPECT_EQ(scene.gsd_m_per_px, 0.2);
+    ASSERT_EQ(scene.camera.keys.size(), 25U);
+    EXPECT_EQ(keyFacts(scene, 0), "0; 12 0; 300; 0 7; 1500");
+    EXPECT_EQ(keyFacts(scene, 1), "250; 10.392 4.5; 303.464; 5 7; 1500");
+    EXPECT_EQ(keyFacts(scene, 3), "750; 0 9; 300; 10 7; 1500");
+    EXPECT_EQ(keyFacts(scene, 24), "6000; 12 0; 300; 0 7; 1500");
+    // The street runs from (0, 0) to (190, −12); whoever drives towards +x keeps to its +y side.
+    int wrong = 0;
+    for (const MovingObject& object : scene.objects) {
+        const bool against = std::any_of(object.poses.begin(), object.poses.end(), [](const ObjectPose& pose) {
+            const double aside = pose.position.y + 12.0 / 190 * pose.position.x;
+            return pose.direction.x < -0.9 && pose.position.x > 120 && pose.position.x < 150 && aside > 1 &&
+                   aside < 2.3;
+        });
+        if (!against) continue;
+        ++wrong;
+        EXPECT_GE(object.first_frame, 2900);
+        EXPECT_LT(object.first_frame, 3050);
+    }
+    EXPECT_EQ(wrong, 1);
 }
 
 TEST(ScenePreset, seedsGiveOtherScenesOfTheSameKind) {

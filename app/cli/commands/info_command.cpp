@@ -14,6 +14,7 @@
 #include "cli/command.h"
 #include "cli/common_options.h"
 #include "cli/interrupt.h"
+#include "cli/reports/stored_comparison.h"
 #include "core/error.h"
 #include "core/utc_time.h"
 #include "io/video/frame_source.h"
@@ -128,6 +129,7 @@ void printProject(const Json& facts) {
         std::printf("  sweep %d: %s, %d of %d points done\n", sweep["id"].get<int>(),
                     sweep["name"].get<std::string>().c_str(), sweep["points_done"].get<int>(),
                     sweep["points"].get<int>());
+    for (const Json& comparison : facts["comparisons"]) std::printf("%s", comparisonText(comparison).c_str());
 }
 
 /// As much of it as could be read until the stop.
@@ -152,6 +154,9 @@ Json projectFacts(const std::filesystem::path& path, const std::stop_token& stop
                                    {"name", sweep.name},
                                    {"points", sweep.point_count},
                                    {"points_done", sweep.points_done}});
+    facts["comparisons"] = Json::array();
+    for (const ComparisonRecord& comparison : comparisons(project))
+        facts["comparisons"].push_back(comparisonFacts(comparison));
     return facts;
 }
 

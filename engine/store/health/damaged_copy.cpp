@@ -80,9 +80,9 @@ std::uint32_t likelyPageSize(const Path& copy) {
     const std::uint64_t size = std::filesystem::file_size(copy);
     std::uint32_t best = kOurPageSize;
     int most = plausiblePages(file, size, best);
-    for (std::uint32_t page_size = 1024; page_size <= 32768; page_size *= 2) {
+    for (std::uint32_t page_size = kOurPageSize / 2; page_size >= 1024; page_size /= 2) {
         const int plausible = plausiblePages(file, size, page_size);
-        // Smaller pages find those of larger ones, too, and much besides.
+        // Smaller pages find those of larger ones, too, and much besides; each size is held against twice its own.
         if (plausible > 2 * most) {
             best = page_size;
             most = plausible;

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cmath>
+#include <sstream>
+#include <string>
+
+#include "core/geometry/angle.h"
+#include "scene/scene_description.h"
+
+/// What a preset says, as lines that tests compare.
+namespace eyrie::test {
+
+/// To three decimals, without "-0".
+inline double rounded(double value) {
+    return std::round(value * 1000) / 1000 + 0.0;
+}
+
+/// Clock and picture; sun; blur, exposure, noise; contrast, level, haze, vignette; JPEG, grey, glare, pattern, smudges,
+/// samples; shake and how far its seed is from the scene's; least length and sight.
+inline std::string pictureFacts(const SceneDescription& scene) {
+    const Sensor& s = scene.sensor;
+    const CameraShake& shake = scene.camera.shake;
+    std::ostringstream text;
+    text << scene.frame_rate_hz << " Hz, " << scene.frame_count << " of " << scene.image_size.width << " x "
+         << scene.image_size.height << "; " << scene.sun.shadow.x << " " << scene.sun.shadow.y << " "
+         << scene.sun.ambient << "; " << s.blur_px << " " << s.exposure << " " << s.read_noise << " " << s.shot_noise
+         << "; " << s.contrast << " " << s.level << " " << s.haze << " " << s.vignette << "; " << s.jpeg_quality << " "
+         << s.gray << " " << s.glare << " " << s.fixed_pattern << " " << s.smudges << " " << s.samples << "; "
+         << shake.sway_px << " " << shake.vibration_px << " " << shake.roll << " " << shake.seed - scene.seed << "; "
+         << scene.least_length_px << " " << scene.sight_m;
+    return text.str();
+}
+
+/// A key of the camera: frame; target; height; heading and tilt in degrees; focal length.
+inline std::string keyFacts(const SceneDescription& scene, std::size_t index) {
+    const CameraKey& key = scene.camera.keys.at(index);
+    std::ostringstream text;
+    text.precision(9);
+    text << key.frame << "; " << rounded(key.target.x) << " " << rounded(key.target.y) << "; " << rounded(key.height)
+         << "; " << rounded(degreesFromRadians(key.heading)) << " " << rounded(degreesFromRadians(key.tilt)) << "; "
+         << rounded(key.focal_px);
+    return text.str();
+}
+
+}  // namespace eyrie::test
