@@ -112,8 +112,8 @@ TEST_F(Compare, InfoShowsTheFiguresThatAProjectKeeps) {
     EXPECT_THAT(info.output, HasSubstr("  comparison 1: /clips/town.mp4, 20"));
     // A column of figures is 11 wide, the methods' as wide as the longest name.
     const std::string titles =
-        "           T_ov  precision     recall    f-score     N-MODP       MOTA        IDS         ms\n";
-    EXPECT_THAT(info.output, HasSubstr("    " + std::string(12, ' ') + titles));
+        "       T_ov  precision     recall    f-score     N-MODP       MOTA        IDS         ms\n";
+    EXPECT_THAT(info.output, HasSubstr("\n    " + std::string(19, ' ') + titles));
     EXPECT_THAT(info.output,
                 HasSubstr("    gradient + tracking        0.3      0.900      0.800      0.847      0.610      "
                           "0.500          7       12.3\n"));

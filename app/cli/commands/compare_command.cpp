@@ -14,7 +14,7 @@
 #include "cli/command.h"
 #include "cli/common_options.h"
 #include "cli/interrupt.h"
-#include "cli/reports/comparison_report.h"
+#include "cli/reports/comparison/comparison_report.h"
 #include "cli/reports/console_progress.h"
 #include "cli/reports/run_report.h"
 #include "core/error.h"

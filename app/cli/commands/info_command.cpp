@@ -14,7 +14,7 @@
 #include "cli/command.h"
 #include "cli/common_options.h"
 #include "cli/interrupt.h"
-#include "cli/reports/stored_comparison.h"
+#include "cli/reports/comparison/stored_comparison.h"
 #include "core/error.h"
 #include "core/utc_time.h"
 #include "io/video/frame_source.h"

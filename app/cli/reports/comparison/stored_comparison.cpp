@@ -1,4 +1,4 @@
-#include "cli/reports/stored_comparison.h"
+#include "cli/reports/comparison/stored_comparison.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "cli/reports/comparison_report.h"
+#include "cli/reports/comparison/comparison_report.h"
 
 #include <algorithm>
 #include <array>
