@@ -101,7 +101,7 @@ bool mendHeader(const Path& copy, bool with_log) {
     const bool sound = std::memcmp(header.data(), kSqliteMagic, sizeof kSqliteMagic) == 0 &&
                        isPageSize(get(header, 16, 2)) && header[18] <= 2 && header[19] <= 2 && header[18] > 0 &&
                        header[19] > 0 && header[20] == 0 && get(header, 21, 3) == 0x402020 && get(header, 44, 4) == 4 &&
-                       get(header, 52, 4) == 0 && get(header, 56, 4) == 1;
+                       get(header, 56, 4) == 1;
     if (!sound) {
         const std::uint32_t page_size = isPageSize(get(header, 16, 2)) ? get(header, 16, 2) : likelyPageSize(copy);
         header.fill(0);
@@ -118,6 +118,9 @@ bool mendHeader(const Path& copy, bool with_log) {
     put(header, 28, 4, static_cast<std::uint32_t>(size / get(header, 16, 2)));
     put(header, 32, 4, 0);
     put(header, 36, 4, 0);
+    // Nor maps of who points to a page: reading does without them, and they may be damaged, too.
+    put(header, 52, 4, 0);
+    put(header, 64, 4, 0);
     put(header, 92, 4, get(header, 24, 4));
     file.seekp(0);
     file.write(reinterpret_cast<const char*>(header.data()), header.size());

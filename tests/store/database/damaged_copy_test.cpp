@@ -109,9 +109,8 @@ TEST_F(DamagedCopyTest, AHeaderThatCannotBeIsThatOfEveryProject) {
 
 TEST_F(DamagedCopyTest, OnlyAHeaderThatCannotBeIsReplaced) {
     std::string damaged = wholeProject();
-    ASSERT_GT(damaged.size(), 4 * kPage);
-    std::fill(damaged.end() - kPage, damaged.end(), 'Z');
-    damaged[35] = 7;  // the first free page, and how many there are
+    ASSERT_NE(numberAt(damaged, 52, 4), 0U) << "space goes back to the disk by maps of who points to a page";
+    damaged[35] = 7;  // the first free page, and how many there are: neither is true
     damaged[39] = 9;
     damaged[95] = static_cast<char>(damaged[27] + 1);
     const DamagedCopy sound = copyOf(damaged);
@@ -121,10 +120,13 @@ TEST_F(DamagedCopyTest, OnlyAHeaderThatCannotBeIsReplaced) {
     EXPECT_EQ(numberAt(header, 28, 4), damaged.size() / kPage);
     EXPECT_EQ(numberAt(header, 32, 4), 0U);
     EXPECT_EQ(numberAt(header, 36, 4), 0U);
-    EXPECT_EQ(header.substr(40, 52), damaged.substr(40, 52));
+    EXPECT_EQ(header.substr(40, 12), damaged.substr(40, 12));
+    EXPECT_EQ(numberAt(header, 52, 4), 0U);
+    EXPECT_EQ(header.substr(56, 8), damaged.substr(56, 8));
+    EXPECT_EQ(numberAt(header, 64, 4), 0U);
+    EXPECT_EQ(header.substr(68, 24), damaged.substr(68, 24));
     EXPECT_EQ(header.substr(92, 4), header.substr(24, 4));
-    for (const auto& [at, value] :
-         {std::pair<std::size_t, int>{18, 0}, {18, 3}, {19, 0}, {20, 1}, {47, 3}, {55, 1}, {59, 2}}) {
+    for (const auto& [at, value] : {std::pair<std::size_t, int>{18, 0}, {18, 3}, {19, 0}, {20, 1}, {47, 3}, {59, 2}}) {
         std::string more = damaged;
         more[at] = static_cast<char>(value);
         expectRebuilt(copyOf(more), kPage, "byte " + std::to_string(at));
