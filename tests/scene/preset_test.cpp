@@ -124,8 +124,8 @@ TEST(ScenePreset, seq1HoldsWhatTable71Says) {
     ASSERT_EQ(scene.camera.keys.size(), 4U);
     EXPECT_EQ(keyFacts(scene, 0), "0; -105 -6; 420; 14 7; 1217.391");
     EXPECT_EQ(keyFacts(scene, 1), "110; -32 4; 417; 9 8; 1217.391");
-    EXPECT_EQ(keyFacts(scene, 2), "250; 62 8; 424; -6 6; 1229.565");
-    EXPECT_EQ(keyFacts(scene, 3), "401; 158 2; 422; -17 8; 1217.391");
+    EXPECT_EQ(keyFacts(scene, 2), "250; 62 8; 424; 354 6; 1229.565");
+    EXPECT_EQ(keyFacts(scene, 3), "401; 158 2; 422; 343 8; 1217.391");
 }
 
 TEST(ScenePreset, seq2HoldsWhatTable71Says) {
@@ -144,8 +144,8 @@ TEST(ScenePreset, seq2HoldsWhatTable71Says) {
               "25 Hz, 201 of 640 x 480; 1.5 1.35 0.42; 0.45 0.25 1.7 0.15; 1 132 0.06 0.12; 74 1 1 0 0 16; "
               "2.2 0.5 0.0016 6; 0 0");
     ASSERT_EQ(scene.camera.keys.size(), 3U);
-    EXPECT_EQ(keyFacts(scene, 0), "0; -44 -8; 360; -24 5; 1267.606");
-    EXPECT_EQ(keyFacts(scene, 1), "90; -6 4; 360; -14 9; 1286.62");
+    EXPECT_EQ(keyFacts(scene, 0), "0; -44 -8; 360; 336 5; 1267.606");
+    EXPECT_EQ(keyFacts(scene, 1), "90; -6 4; 360; 346 9; 1286.62");
     EXPECT_EQ(keyFacts(scene, 2), "201; 46 4; 365; 4 7; 1267.606");
     expectNoCollisions(scene);
 }
@@ -175,7 +175,7 @@ TEST(ScenePreset, egtest01HoldsWhatTable71Says) {
     for (std::size_t i = 0; i < keys.size(); ++i) {
         const double share = static_cast<double>(i) / 27;
         EXPECT_EQ(keys[i].frame, 70.0 * static_cast<double>(i));
-        EXPECT_NEAR(degreesFromRadians(keys[i].heading), -35 + 95 * share, 1e-9);
+        EXPECT_NEAR(keys[i].heading * 180 / CV_PI, -35 + 95 * share, 1e-9);
         EXPECT_NEAR(keys[i].height, 340 - 90 * share, 25);
         EXPECT_NEAR(degreesFromRadians(keys[i].tilt), 48 - 30 * (1 - share) * (1 - share), 4);
         EXPECT_NEAR(keys[i].focal_px, 1581.4, 158.2);
@@ -195,8 +195,8 @@ TEST(ScenePreset, demoHasMixedTraffic) {
               "25 Hz, 250 of 640 x 480; 0.72 0.42 0.4; 0.35 0.18 1.3 0.11; 0.98 122 0.03 0.12; 86 0 1 0 0 8; "
               "1.3 0.25 0.001 7; 0 0");
     ASSERT_EQ(scene.camera.keys.size(), 3U);
-    EXPECT_EQ(keyFacts(scene, 0), "0; -12 4; 190; -22 24; 1117.647");
-    EXPECT_EQ(keyFacts(scene, 1), "120; 2 0; 186; -10 27; 1162.353");
+    EXPECT_EQ(keyFacts(scene, 0), "0; -12 4; 190; 338 24; 1117.647");
+    EXPECT_EQ(keyFacts(scene, 1), "120; 2 0; 186; 350 27; 1162.353");
     EXPECT_EQ(keyFacts(scene, 2), "250; 13 -5; 194; 7 24; 1117.647");
     expectNoCollisions(scene);
 }
@@ -208,7 +208,7 @@ TEST(ScenePreset, atTheStopsVehiclesStandForLongAndShort) {
               "1.2 0.25 0.001 8; 0 0");
     EXPECT_EQ(scene.gsd_m_per_px, 0.2);
     ASSERT_EQ(scene.camera.keys.size(), 4U);
-    EXPECT_EQ(keyFacts(scene, 0), "0; -6 3; 300; -8 9; 1500");
+    EXPECT_EQ(keyFacts(scene, 0), "0; -6 3; 300; 352 9; 1500");
     EXPECT_EQ(keyFacts(scene, 1), "450; 4 -2; 295; 3 6; 1530");
     EXPECT_EQ(keyFacts(scene, 2), "900; -3 -4; 305; 12 8; 1500");
     EXPECT_EQ(keyFacts(scene, 3), "1300; 3 3; 300; 5 10; 1500");

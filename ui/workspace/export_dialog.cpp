@@ -135,11 +135,12 @@ void ExportDialog::startExport() {
                           offer().clips && clip_->isChecked()};
     showWorking(true);
     text_->setPlainText(tr("Writing…"));
-    const auto work = [this, files = source_.files, read = source_.read, write = source_.begin(wish), wish, target,
+    const auto work = [this, files = source_.files, read = source_.read, write = source_.begin(wish), wish,
                        agreed](const BackgroundTask& task) {
         const auto replaced = filesToReplace(files(wish), read);
         if (!replaced.empty() && !agreed) {
-            task.tell([this, target, names = QString::fromStdString(shortList(replaced))] {
+            task.tell([this, target = QString::fromStdString(wish.path.string()),
+                       names = QString::fromStdString(shortList(replaced))] {
                 agreed_ = target;
                 showEnd(tr("%1 would be replaced. Name another file, or press Export again to replace what is there.")
                             .arg(names),

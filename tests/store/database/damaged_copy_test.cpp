@@ -36,6 +36,11 @@ class DamagedCopyTest : public testing::Test {
         test::writeSampleProject(path, 6);
         return bytesOf(path);
     }
+    /// The page on which a table of it begins, from 1.
+    std::size_t rootOf(const std::string& table) const {
+        SQLite::Database database((folder_ / "whole.eyrie").string());
+        return database.execAndGet("SELECT rootpage FROM sqlite_schema WHERE name = '" + table + "'").getUInt();
+    }
     DamagedCopy copyOf(const std::string& bytes) {
         const auto path = folder_ / "damaged.eyrie";
         std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
@@ -109,6 +114,7 @@ TEST_F(DamagedCopyTest, AHeaderThatCannotBeIsThatOfEveryProject) {
 
 TEST_F(DamagedCopyTest, OnlyAHeaderThatCannotBeIsReplaced) {
     std::string damaged = wholeProject();
+    damaged[kPage * (rootOf("frame") - 1)] = 'Z';  // no page at all
     ASSERT_NE(numberAt(damaged, 52, 4), 0U) << "space goes back to the disk by maps of who points to a page";
     damaged[35] = 7;  // the first free page, and how many there are: neither is true
     damaged[39] = 9;
