@@ -347,7 +347,7 @@ void MainWindow::enableActions() {
     for (QAction* action : actions_->workspace) action->setEnabled(true);
     const bool has_run = session_.currentRun().has_value();
     actions_->why->setEnabled(has_run && session_.viewFrame().result);
-    actions_->compare->setEnabled(hasRunOfTheVideo(session_));
+    actions_->compare->setEnabled(has_run || hasRunOfTheVideo(session_));
     actions_->run->setEnabled(has_video && !running);
     actions_->stop->setEnabled(running);
     actions_->continue_run->setEnabled(has_run && session_.canContinue(*session_.currentRun()));
