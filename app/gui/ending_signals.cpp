@@ -33,3 +33,5 @@ EndingSignals::~EndingSignals() {
 }
 
 }  // namespace eyrie
+
+#include "moc_ending_signals.cpp"

@@ -74,3 +74,5 @@ void OverlaySettings::setMinScore(double score) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_overlay_settings.cpp"

@@ -420,3 +420,5 @@ void VideoView::updateCursorShape() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_video_view.cpp"

@@ -105,3 +105,5 @@ void WipeSplit::follow(const VideoView& from, VideoView& to) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_wipe_split.cpp"

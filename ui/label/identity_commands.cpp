@@ -134,3 +134,5 @@ std::optional<ObjectId> IdentityCommands::chosenOf(const std::vector<std::pair<O
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_identity_commands.cpp"

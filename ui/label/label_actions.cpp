@@ -170,3 +170,5 @@ void LabelActions::lendKeys() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_label_actions.cpp"

@@ -348,3 +348,5 @@ void LabelCommands::bindFiles() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_label_commands.cpp"

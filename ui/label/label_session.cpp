@@ -292,3 +292,5 @@ QString LabelSession::person() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_label_session.cpp"

@@ -405,3 +405,5 @@ void LabelWorkspace::followObject() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_label_workspace.cpp"

@@ -126,3 +126,5 @@ void ObjectPictures::takeStack(ObjectId id, const ObjectStack& stack) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_object_pictures.cpp"

@@ -466,3 +466,5 @@ void ProjectSession::liveRunEnded(const RunSummary& summary, int run_id) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_project_session.cpp"

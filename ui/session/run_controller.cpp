@@ -152,3 +152,5 @@ void RunController::end(const RunSummary& summary, int run_id) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_run_controller.cpp"

@@ -390,3 +390,5 @@ void ChipGrid::changeEvent(QEvent* event) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_chip_grid.cpp"

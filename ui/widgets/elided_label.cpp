@@ -35,3 +35,5 @@ void ElidedLabel::paintEvent(QPaintEvent*) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_elided_label.cpp"

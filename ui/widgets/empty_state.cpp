@@ -33,3 +33,5 @@ QAbstractButton* EmptyState::button() const {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_empty_state.cpp"

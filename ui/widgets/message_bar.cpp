@@ -176,3 +176,5 @@ QStringList MessageBar::texts() const {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_message_bar.cpp"

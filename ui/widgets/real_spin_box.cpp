@@ -116,3 +116,5 @@ void RealSpinBox::focusOutEvent(QFocusEvent* event) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_real_spin_box.cpp"

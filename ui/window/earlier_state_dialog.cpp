@@ -93,3 +93,5 @@ void EarlierStateDialog::choose(int row) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_earlier_state_dialog.cpp"

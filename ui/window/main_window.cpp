@@ -458,3 +458,5 @@ void MainWindow::dropEvent(QDropEvent* event) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_main_window.cpp"

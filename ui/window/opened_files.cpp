@@ -329,3 +329,5 @@ void OpenedFiles::rememberView() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_opened_files.cpp"

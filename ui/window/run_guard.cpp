@@ -62,3 +62,5 @@ void RunGuard::remove(int run_id) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_run_guard.cpp"

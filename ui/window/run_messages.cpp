@@ -80,3 +80,5 @@ void RunMessages::tellEvents(int run_id, std::size_t count) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_run_messages.cpp"

@@ -140,3 +140,5 @@ void Theme::apply() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_theme.cpp"

@@ -98,3 +98,5 @@ void WelcomePanel::setRecent(const QList<RecentProject>& projects) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_welcome_panel.cpp"

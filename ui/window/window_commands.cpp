@@ -189,3 +189,5 @@ void WindowCommands::showAbout() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_window_commands.cpp"

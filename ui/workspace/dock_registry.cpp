@@ -223,3 +223,5 @@ void DockRegistry::tidy() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_dock_registry.cpp"

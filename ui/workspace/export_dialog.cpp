@@ -165,3 +165,5 @@ void ExportDialog::startExport() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_export_dialog.cpp"

@@ -87,3 +87,5 @@ bool FocusedKeys::wants(const QWidget& widget, const QKeyEvent& key) const {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_focused_keys.cpp"

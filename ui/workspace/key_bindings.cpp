@@ -108,3 +108,5 @@ void KeyBindings::resetAll() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_key_bindings.cpp"

@@ -205,3 +205,5 @@ QString KeySheet::answer() const {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_key_sheet.cpp"

@@ -138,3 +138,5 @@ void TimelineBinding::showTrackLife() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_timeline_binding.cpp"

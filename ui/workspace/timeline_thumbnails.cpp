@@ -164,3 +164,5 @@ void TimelineThumbnails::place() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_timeline_thumbnails.cpp"

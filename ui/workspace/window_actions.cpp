@@ -390,3 +390,5 @@ void WindowActions::followOverlays(const OverlaySettings& overlays) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_window_actions.cpp"

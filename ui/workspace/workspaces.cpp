@@ -152,3 +152,5 @@ void Workspaces::restore(const QVariantMap& state) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_workspaces.cpp"

@@ -205,7 +205,7 @@ DamagedCopy copyDamaged(const Path& project, const Path& folder, const CopyWatch
         removeDatabase(copy);
         if (!copyBytes(project, copy, watch)) return stopped();
         if (isSound(copy)) {
-            result.notes.push_back(
+            result.notes.emplace_back(
                 "the log beside the project contradicts it and was left out, with the newest changes if they were of "
                 "this project");
             return result;
@@ -215,11 +215,11 @@ DamagedCopy copyDamaged(const Path& project, const Path& folder, const CopyWatch
         copyCompanion(project, copy, "-wal");
     }
     if (mendHeader(copy, has_log))
-        result.notes.push_back("the beginning of the file (header) was damaged and was rebuilt");
+        result.notes.emplace_back("the beginning of the file (header) was damaged and was rebuilt");
     if (!hasTables(copy)) {
         removeDatabase(copy.string() + "-wal");
         replaceTables(copy, folder);
-        result.notes.push_back(
+        result.notes.emplace_back(
             "the list of tables was lost; the file was taken for one that this version of Eyrie made");
     }
     return result;

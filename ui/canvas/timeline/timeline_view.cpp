@@ -353,3 +353,5 @@ void TimelineView::wheelEvent(QWheelEvent* event) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_timeline_view.cpp"

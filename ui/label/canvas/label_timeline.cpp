@@ -193,3 +193,5 @@ bool LabelTimeline::viewportEvent(QEvent* event) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_label_timeline.cpp"

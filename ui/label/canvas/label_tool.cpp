@@ -425,3 +425,5 @@ void LabelTool::showNudged() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_label_tool.cpp"

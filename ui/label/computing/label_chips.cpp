@@ -75,3 +75,5 @@ void LabelChips::request(ObjectId id) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_label_chips.cpp"

@@ -112,3 +112,5 @@ void LabelFitting::take(const std::vector<Fitted>& fitted, const QString& failur
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_label_fitting.cpp"

@@ -231,3 +231,5 @@ void LabelProposals::offerAgain() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_label_proposals.cpp"

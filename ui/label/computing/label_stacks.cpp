@@ -89,3 +89,5 @@ void LabelStacks::begin() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_label_stacks.cpp"

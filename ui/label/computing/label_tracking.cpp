@@ -110,3 +110,5 @@ void LabelTracking::take(ObjectId id, FrameIndex start, const OrientedBox& box, 
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_label_tracking.cpp"

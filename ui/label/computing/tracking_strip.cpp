@@ -46,3 +46,5 @@ QString TrackingStrip::text() const {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_tracking_strip.cpp"

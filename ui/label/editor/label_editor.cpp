@@ -386,3 +386,5 @@ void LabelEditor::nextUnchecked() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_label_editor.cpp"

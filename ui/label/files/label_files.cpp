@@ -285,3 +285,5 @@ void LabelImportDialog::accept() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_label_files.cpp"

@@ -209,3 +209,5 @@ QString ObjectInspector::boxText() const {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_object_inspector.cpp"

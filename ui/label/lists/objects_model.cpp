@@ -188,3 +188,5 @@ QVariant ObjectsModel::headerData(int section, Qt::Orientation orientation, int 
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_objects_model.cpp"

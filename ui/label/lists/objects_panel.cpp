@@ -160,3 +160,5 @@ void ObjectsPanel::fillMenu(QMenu& menu, int object) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_objects_panel.cpp"

@@ -138,3 +138,5 @@ void Bookmarks::step(int direction) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_bookmarks.cpp"

@@ -95,3 +95,5 @@ bool BookmarksModel::setData(const QModelIndex& index, const QVariant& value, in
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_bookmarks_model.cpp"

@@ -55,3 +55,5 @@ bool BookmarksPanel::eventFilter(QObject* watched, QEvent* event) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_bookmarks_panel.cpp"

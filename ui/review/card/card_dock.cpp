@@ -136,3 +136,5 @@ void CardDock::askForStory() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_card_dock.cpp"

@@ -167,3 +167,5 @@ void EventCard::hideEvent(QHideEvent* event) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_event_card.cpp"

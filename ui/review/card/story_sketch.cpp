@@ -183,3 +183,5 @@ void StorySketch::paintEvent(QPaintEvent*) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_story_sketch.cpp"

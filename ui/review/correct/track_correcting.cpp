@@ -373,3 +373,5 @@ void TrackCorrecting::follow(const OrientedBox& box) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_track_correcting.cpp"

@@ -110,3 +110,5 @@ QString VehicleBoxTool::hint(const CanvasPlace&) const {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_vehicle_box_tool.cpp"

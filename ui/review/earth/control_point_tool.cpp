@@ -179,3 +179,5 @@ QString ControlPointTool::hint(const CanvasPlace&) const {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_control_point_tool.cpp"

@@ -76,3 +76,5 @@ bool ControlPointsModel::setData(const QModelIndex& index, const QVariant& value
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_control_points_model.cpp"

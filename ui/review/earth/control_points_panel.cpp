@@ -137,3 +137,5 @@ bool ControlPointsPanel::eventFilter(QObject* watched, QEvent* event) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_control_points_panel.cpp"

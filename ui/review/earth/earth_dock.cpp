@@ -46,3 +46,5 @@ void EarthDock::showNorth() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_earth_dock.cpp"

@@ -307,3 +307,5 @@ void GroundControl::showMarks() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_ground_control.cpp"

@@ -65,3 +65,5 @@ QVariant MetadataModel::headerData(int section, Qt::Orientation orientation, int
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_metadata_model.cpp"

@@ -152,3 +152,5 @@ void MetadataPanel::showFrame() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_metadata_panel.cpp"

@@ -66,3 +66,5 @@ void StartTime::store(std::optional<std::int64_t> utc_us) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_start_time.cpp"

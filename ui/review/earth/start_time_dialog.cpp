@@ -66,3 +66,5 @@ void StartTimeDialog::answer(std::optional<std::int64_t> utc_us) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_start_time_dialog.cpp"

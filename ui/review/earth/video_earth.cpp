@@ -249,3 +249,5 @@ QString VideoEarth::origin() const {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_video_earth.cpp"

@@ -50,3 +50,5 @@ void EventCells::initStyleOption(QStyleOptionViewItem* option, const QModelIndex
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_event_cells.cpp"

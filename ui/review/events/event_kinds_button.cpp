@@ -77,3 +77,5 @@ void EventKindsButton::refresh() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_event_kinds_button.cpp"

@@ -316,3 +316,5 @@ void EventReview::tellOnce(const QString& fault) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_event_review.cpp"

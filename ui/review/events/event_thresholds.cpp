@@ -150,3 +150,5 @@ void EventThresholds::keepValues() const {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_event_thresholds.cpp"

@@ -436,3 +436,5 @@ void EventsDock::toggleStars() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_events_dock.cpp"

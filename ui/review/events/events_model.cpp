@@ -335,3 +335,5 @@ bool EventsModel::setData(const QModelIndex& index, const QVariant& value, int r
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_events_model.cpp"

@@ -405,3 +405,5 @@ void EventsPanel::changeEvent(QEvent* event) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_events_panel.cpp"

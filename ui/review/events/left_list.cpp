@@ -80,3 +80,5 @@ void LeftList::setRows(const std::vector<LeftRow>& rows) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_left_list.cpp"

@@ -219,3 +219,5 @@ void InspectorPanel::setRows(const QList<std::pair<QString, QString>>& rows) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_inspector_panel.cpp"

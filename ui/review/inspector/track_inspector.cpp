@@ -222,3 +222,5 @@ QString TrackInspector::text() const {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_track_inspector.cpp"

@@ -92,3 +92,5 @@ void MosaicMaker::make(const std::shared_ptr<const RunGround>& ground, const Med
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_mosaic_maker.cpp"

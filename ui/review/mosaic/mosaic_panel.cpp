@@ -239,3 +239,5 @@ void MosaicPanel::activate(int row) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_mosaic_panel.cpp"

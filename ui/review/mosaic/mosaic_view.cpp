@@ -277,3 +277,5 @@ void MosaicView::keyPressEvent(QKeyEvent* event) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_mosaic_view.cpp"

@@ -124,3 +124,5 @@ void PictureColumn::ask() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_picture_column.cpp"

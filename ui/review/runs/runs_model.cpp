@@ -211,3 +211,5 @@ bool RunsModel::setData(const QModelIndex& index, const QVariant& value, int rol
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_runs_model.cpp"

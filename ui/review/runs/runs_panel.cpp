@@ -49,3 +49,5 @@ bool RunsPanel::eventFilter(QObject* watched, QEvent* event) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_runs_panel.cpp"

@@ -162,3 +162,5 @@ void FilterChips::askForName() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_filter_chips.cpp"

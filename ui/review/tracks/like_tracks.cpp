@@ -136,3 +136,5 @@ void LikeTracks::fail(const QString& text) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_like_tracks.cpp"

@@ -267,3 +267,5 @@ QVariant TracksModel::headerData(int section, Qt::Orientation orientation, int r
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_tracks_model.cpp"

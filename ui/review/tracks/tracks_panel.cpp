@@ -258,3 +258,5 @@ void TracksPanel::fillMenu(QMenu& menu, int track) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_tracks_panel.cpp"

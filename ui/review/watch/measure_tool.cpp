@@ -199,3 +199,5 @@ void MeasureTool::paint(QPainter& painter, const CanvasPlace& place) const {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_measure_tool.cpp"

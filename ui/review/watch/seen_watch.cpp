@@ -94,3 +94,5 @@ void SeenWatch::flush() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_seen_watch.cpp"

@@ -133,3 +133,5 @@ void SteadyWatch::follow() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_steady_watch.cpp"

@@ -147,3 +147,5 @@ void WatchCommands::writeSnapshot(const std::filesystem::path& path, const QImag
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_watch_commands.cpp"

@@ -46,3 +46,5 @@ void WatchedGround::forgetSheets() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_watched_ground.cpp"

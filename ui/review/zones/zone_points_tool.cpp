@@ -166,3 +166,5 @@ QString ZonePointsTool::hint(const CanvasPlace&) const {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_zone_points_tool.cpp"

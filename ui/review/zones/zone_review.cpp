@@ -355,3 +355,5 @@ void ZoneReview::showMarks() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_zone_review.cpp"

@@ -176,3 +176,5 @@ QString ZoneTool::hint(const CanvasPlace&) const {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_zone_tool.cpp"

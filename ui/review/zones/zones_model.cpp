@@ -111,3 +111,5 @@ bool ZonesModel::setData(const QModelIndex& index, const QVariant& value, int ro
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_zones_model.cpp"

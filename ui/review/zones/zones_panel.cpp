@@ -226,3 +226,5 @@ bool ZonesPanel::eventFilter(QObject* watched, QEvent* event) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_zones_panel.cpp"

@@ -76,3 +76,5 @@ void Playback::tick() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_playback.cpp"

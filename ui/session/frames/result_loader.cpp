@@ -136,3 +136,5 @@ void ResultLoader::request(FrameIndex frame, int direction) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_result_loader.cpp"

@@ -86,3 +86,5 @@ void EarlierStates::restoreAsNew(const ProjectBackup& backup, const std::filesys
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_earlier_states.cpp"

@@ -104,3 +104,5 @@ void PresetLibrary::exportFile(const std::string& name, const std::filesystem::p
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_preset_library.cpp"

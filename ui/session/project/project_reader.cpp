@@ -387,3 +387,5 @@ void ProjectReader::move() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_project_reader.cpp"

@@ -259,3 +259,5 @@ void ComparisonHeader::showProgress(int done, int total) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_comparison_header.cpp"

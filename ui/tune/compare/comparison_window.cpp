@@ -352,3 +352,5 @@ void ComparisonWindow::keyPressEvent(QKeyEvent* event) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_comparison_window.cpp"

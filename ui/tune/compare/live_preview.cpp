@@ -123,3 +123,5 @@ void LivePreview::request() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_live_preview.cpp"

@@ -82,3 +82,5 @@ void PreviewBar::refresh() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_preview_bar.cpp"

@@ -73,3 +73,5 @@ void ErrorChips::request(std::vector<ChipWish> wishes) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_error_chips.cpp"

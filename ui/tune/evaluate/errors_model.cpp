@@ -135,3 +135,5 @@ QVariant ErrorsModel::headerData(int section, Qt::Orientation orientation, int r
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_errors_model.cpp"

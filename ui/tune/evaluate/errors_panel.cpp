@@ -146,3 +146,5 @@ void ErrorsPanel::fillMenu(QMenu& menu, int id) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_errors_panel.cpp"

@@ -166,3 +166,5 @@ void EvaluationChoices::useTruthFile(const QString& path) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_evaluation_choices.cpp"

@@ -334,3 +334,5 @@ void EvaluationPanel::copyTable() const {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_evaluation_panel.cpp"

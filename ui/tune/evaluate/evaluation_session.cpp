@@ -272,3 +272,5 @@ std::vector<VerdictMark> EvaluationSession::marksAt(FrameIndex frame) const {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_evaluation_session.cpp"

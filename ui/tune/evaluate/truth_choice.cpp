@@ -65,3 +65,5 @@ void TruthChoice::useFile(const QString& path) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_truth_choice.cpp"

@@ -157,3 +157,5 @@ QString Inspection::waitingText() const {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_inspection.cpp"

@@ -216,3 +216,5 @@ void MotionStatisticsPanel::showLives() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_motion_statistics_panel.cpp"

@@ -135,3 +135,5 @@ void StacksPanel::showView(const std::shared_ptr<const ReplayView>& view) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_stacks_panel.cpp"

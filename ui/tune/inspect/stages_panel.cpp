@@ -196,3 +196,5 @@ void StagesPanel::showSearch() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_stages_panel.cpp"

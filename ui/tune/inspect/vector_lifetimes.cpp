@@ -106,3 +106,5 @@ void VectorLifetimesReader::read(const RunReference& run) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_vector_lifetimes.cpp"

@@ -119,3 +119,5 @@ void Why::request() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_why.cpp"

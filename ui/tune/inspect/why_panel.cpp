@@ -162,3 +162,5 @@ void WhyPanel::changeEvent(QEvent* event) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_why_panel.cpp"

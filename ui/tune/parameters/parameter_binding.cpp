@@ -135,3 +135,5 @@ void ParameterBinding::adoptRunParameters() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_parameter_binding.cpp"

@@ -215,3 +215,5 @@ void PresetDialog::exportSelected(const QString& file) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_preset_dialog.cpp"

@@ -253,3 +253,5 @@ void SweepForm::start() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_sweep_form.cpp"

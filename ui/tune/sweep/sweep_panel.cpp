@@ -359,3 +359,5 @@ void SweepPanel::ask(const SweepRequest& request, double points) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_sweep_panel.cpp"

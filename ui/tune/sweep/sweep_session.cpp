@@ -261,3 +261,5 @@ void SweepSession::ended(bool whole, const QString& problem) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_sweep_session.cpp"

@@ -202,3 +202,5 @@ void LabelTraining::work(const TrainingWish& wish, const BackgroundTask& task) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_label_training.cpp"

@@ -249,3 +249,5 @@ QString TrainingDialog::message() const {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_training_dialog.cpp"

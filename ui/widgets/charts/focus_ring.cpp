@@ -46,3 +46,5 @@ void FocusRing::paintEvent(QPaintEvent*) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_focus_ring.cpp"

@@ -131,3 +131,5 @@ void HistogramChart::contextMenuEvent(QContextMenuEvent* event) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_histogram_chart.cpp"

@@ -162,3 +162,5 @@ void LineChart::contextMenuEvent(QContextMenuEvent* event) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_line_chart.cpp"

@@ -92,3 +92,5 @@ void OriginBar::mousePressEvent(QMouseEvent* event) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_origin_bar.cpp"

@@ -299,3 +299,5 @@ void StageTimesChart::keyPressEvent(QKeyEvent* event) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_stage_times_chart.cpp"

@@ -374,3 +374,5 @@ void SweepChart::contextMenuEvent(QContextMenuEvent* event) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_sweep_chart.cpp"

@@ -135,3 +135,5 @@ void TrackedBar::contextMenuEvent(QContextMenuEvent* event) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_tracked_bar.cpp"

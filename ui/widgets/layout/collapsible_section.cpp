@@ -51,3 +51,5 @@ void CollapsibleSection::update() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_collapsible_section.cpp"

@@ -29,3 +29,5 @@ void OverlayColumn::follow() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_overlay_column.cpp"

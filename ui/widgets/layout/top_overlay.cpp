@@ -52,3 +52,5 @@ void TopOverlay::tell() const {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_top_overlay.cpp"

@@ -234,3 +234,5 @@ ParameterEditor* makeParameterEditor(const Parameter& parameter, QWidget* parent
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_parameter_editor.cpp"

@@ -256,3 +256,5 @@ void ParameterForm::resetAll() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_parameter_form.cpp"

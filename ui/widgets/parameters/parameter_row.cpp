@@ -148,3 +148,5 @@ bool ParameterRow::eventFilter(QObject* watched, QEvent* event) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_parameter_row.cpp"

@@ -432,3 +432,5 @@ void TablePanel::saveColumns() const {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_table_panel.cpp"

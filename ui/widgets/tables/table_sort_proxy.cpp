@@ -92,3 +92,5 @@ bool TableSortProxy::filterAcceptsRow(int source_row, const QModelIndex& source_
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_table_sort_proxy.cpp"

@@ -61,3 +61,5 @@ void OverlayButton::refresh() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_overlay_button.cpp"

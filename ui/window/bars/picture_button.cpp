@@ -88,3 +88,5 @@ void PictureButton::apply() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_picture_button.cpp"

@@ -298,3 +298,5 @@ void RunBar::takeRange() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_run_bar.cpp"

@@ -213,3 +213,5 @@ void StatusFields::hideProgress() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_status_fields.cpp"

@@ -86,3 +86,5 @@ void TransportBar::showSpeed(double speed) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_transport_bar.cpp"

@@ -45,3 +45,5 @@ void ClockDisplay::showClock() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_clock_display.cpp"

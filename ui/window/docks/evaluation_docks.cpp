@@ -388,3 +388,5 @@ void EvaluationDocks::tellChange(const std::shared_ptr<const RunEvaluation>& bef
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_evaluation_docks.cpp"

@@ -110,3 +110,5 @@ void EventReport::write(const std::filesystem::path& path, ReportedEvents which)
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_event_report.cpp"

@@ -148,3 +148,5 @@ void ReviewDocks::showTracks() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_review_docks.cpp"

@@ -217,3 +217,5 @@ void Tuning::showPlaceMark() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_tuning.cpp"

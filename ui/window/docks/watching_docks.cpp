@@ -77,3 +77,5 @@ void WatchingDocks::enableActions() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_watching_docks.cpp"

@@ -71,3 +71,5 @@ ExportSource ClipDialog::sourceFor(const ClipDialog* self, const ProjectSession&
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_clip_dialog.cpp"

@@ -64,3 +64,5 @@ void RunHandover::remind(const QString& text) {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_run_handover.cpp"

@@ -223,3 +223,5 @@ void LiveDialog::reject() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_live_dialog.cpp"

@@ -107,3 +107,5 @@ QString LiveStrip::text() const {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_live_strip.cpp"

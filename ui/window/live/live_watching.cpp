@@ -73,3 +73,5 @@ void LiveWatching::endWaiting() {
 }
 
 }  // namespace eyrie::ui
+
+#include "moc_live_watching.cpp"
