@@ -387,7 +387,7 @@ void LabelWorkspace::enableActions() {
         action->setEnabled(labels_->isOpen() && !labels_->annotations().objects.empty());
     for (QAction* action : {actions_->next_frame, actions_->previous_frame, actions_->ten_on, actions_->ten_back})
         action->setEnabled(around_.session.video().has_value());
-    for (QAction* action : actions_->nudge) action->setEnabled(around_.session.video().has_value());  // or they step
+    for (QAction* action : actions_->nudge) action->setEnabled(around_.session.video().has_value());
 }
 
 void LabelWorkspace::followObject() {

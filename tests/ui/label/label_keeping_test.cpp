@@ -1,7 +1,4 @@
 #include <QApplication>
-#include <QDragEnterEvent>
-#include <QDropEvent>
-#include <QMimeData>
 #include <QSignalSpy>
 #include <cmath>
 #include <filesystem>
@@ -18,15 +15,6 @@ namespace eyrie::ui::label_keeping_test {
 /// Nothing labelled is lost, and only one window labels.
 class LabelKeepingTest : public QObject, test::Labelling {
     Q_OBJECT
-
-    static void drop(MainWindow& window, const std::filesystem::path& video) {
-        QMimeData data;
-        data.setUrls({QUrl::fromLocalFile(QString::fromStdString(video.string()))});
-        QDragEnterEvent enter({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-        QApplication::sendEvent(&window, &enter);
-        QDropEvent dropped({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-        QApplication::sendEvent(&window, &dropped);
-    }
 
  private slots:
     void init() { begin(); }
@@ -80,7 +68,7 @@ class LabelKeepingTest : public QObject, test::Labelling {
                     {{SessionChange::video, [&] { tracks_still = actions.stop_tracking->isEnabled(); }}});
         actions.track_on->trigger();
         QSignalSpy ready(&window->session(), &ProjectSession::ready);
-        drop(*window, other);
+        test::drop(*window, other);
         QVERIFY(!window->session().opening());
         QVERIFY(ready.wait(test::kPatience_ms));
         QVERIFY(!tracks_still);
@@ -116,13 +104,13 @@ class LabelKeepingTest : public QObject, test::Labelling {
         QTest::keyClicks(&window->labelling().inspector().notes(), QStringLiteral("white van"));
         {
             const test::FullDisk full;
-            drop(*window, other);
+            test::drop(*window, other);
             QVERIFY(!window->session().opening());
         }
         const auto told = [&] { return window->messages().texts().join(QLatin1Char(' ')); };
         QVERIFY2(waitFor([&] { return told().contains(QStringLiteral("Ask for it again")); }), qPrintable(told()));
         QSignalSpy ready(&window->session(), &ProjectSession::ready);
-        drop(*window, other);
+        test::drop(*window, other);
         QVERIFY(ready.wait(test::kPatience_ms));
         QCOMPARE(window->session().video()->frame_count, 8);
         QVERIFY2(!told().contains(QStringLiteral("Ask for it again")), qPrintable(told()));

@@ -2,13 +2,18 @@
 
 #include <QAbstractButton>
 #include <QCoreApplication>
+#include <QDragEnterEvent>
+#include <QDropEvent>
 #include <QLabel>
 #include <QMessageBox>
+#include <QMimeData>
 #include <QSettings>
 #include <QStandardPaths>
 #include <QTest>
+#include <QUrl>
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -130,6 +135,19 @@ inline bool press(QWidget& dialog, const QString& button_text) {
         return true;
     }
     return false;
+}
+
+/// Drops files on a window, as a file manager does.
+inline void drop(QWidget& window, const QList<QUrl>& urls) {
+    QMimeData data;
+    data.setUrls(urls);
+    QDragEnterEvent enter({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QCoreApplication::sendEvent(&window, &enter);
+    QDropEvent dropped({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QCoreApplication::sendEvent(&window, &dropped);
+}
+inline void drop(QWidget& window, const std::filesystem::path& file) {
+    drop(window, QList<QUrl>{QUrl::fromLocalFile(QString::fromStdString(file.string()))});
 }
 
 /// Whether a label of a dialog says something.

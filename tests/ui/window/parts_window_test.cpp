@@ -1,7 +1,5 @@
-#include <QDropEvent>
 #include <QHelpEvent>
 #include <QLabel>
-#include <QMimeData>
 #include <QStatusBar>
 #include <QTest>
 #include <QToolTip>
@@ -38,17 +36,9 @@ class PartsWindowTest : public QObject {
         }
         return urls;
     }
-    static void drop(MainWindow& window, const QList<QUrl>& urls) {
-        QMimeData data;
-        data.setUrls(urls);
-        QDragEnterEvent enter({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-        QApplication::sendEvent(&window, &enter);
-        QDropEvent drop({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-        QApplication::sendEvent(&window, &drop);
-    }
     static bool opens(MainWindow& window, const QList<QUrl>& urls) {
         QSignalSpy ready(&window.session(), &ProjectSession::ready);
-        drop(window, urls);
+        test::drop(window, urls);
         return ready.wait(kPatience_ms);
     }
     static bool statusSays(const MainWindow& window, const QString& text) {
@@ -95,7 +85,7 @@ class PartsWindowTest : public QObject {
         const QList<QUrl> parts = flown();
         QVERIFY(opens(window, parts));
         QSignalSpy problem(&window.session(), &ProjectSession::problem);
-        drop(window, {parts.front(), parts.front()});
+        test::drop(window, QList<QUrl>{parts.front(), parts.front()});
         QVERIFY(problem.wait(kPatience_ms));
         QVERIFY(window.messages().texts().join(QLatin1Char('\n')).contains(QStringLiteral("is given twice")));
         QCOMPARE(window.session().video()->frame_count, 2 * kFrames);

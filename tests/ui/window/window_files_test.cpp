@@ -1,12 +1,10 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <QApplication>
 #include <QDoubleSpinBox>
-#include <QDropEvent>
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
 #include <QMenu>
-#include <QMimeData>
 #include <QPushButton>
 #include <QScopeGuard>
 #include <QSignalSpy>
@@ -70,14 +68,6 @@ class WindowFilesTest : public QObject {
     static bool asks(const MainWindow& window) {
         const auto boxes = window.findChildren<QMessageBox*>();
         return std::any_of(boxes.begin(), boxes.end(), [](const QMessageBox* box) { return box->isVisible(); });
-    }
-    static void drop(MainWindow& window, const std::filesystem::path& video) {
-        QMimeData data;
-        data.setUrls({QUrl::fromLocalFile(QString::fromStdString(video.string()))});
-        QDragEnterEvent enter({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-        QApplication::sendEvent(&window, &enter);
-        QDropEvent dropped({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-        QApplication::sendEvent(&window, &dropped);
     }
     std::filesystem::path images(const std::string& name, int frames = 12) {
         return test::writeScene(*home_ / name / "images", frames);
@@ -266,7 +256,7 @@ class WindowFilesTest : public QObject {
         window.actions().run->trigger();
         QVERIFY(waitFor(
             [&] { return !window.session().runs().empty() && window.session().runs().back().frames_done >= 8; }));
-        drop(window, folder);
+        test::drop(window, folder);
         QVERIFY(asks(window));
         QSignalSpy ready(&window.session(), &ProjectSession::ready);
         QVERIFY(test::answer(window, QStringLiteral("Stop the run")));
@@ -287,7 +277,7 @@ class WindowFilesTest : public QObject {
         window.session().settings().options.view.oblique = false;    // which reads elsewhere, too
         door->closeFrom(20);
         std::optional<DueWrite> work(std::in_place);
-        drop(window, folder);
+        test::drop(window, folder);
         QVERIFY(says(window, QStringLiteral("Saving your last changes first")));
         window.actions().run->trigger();
         QVERIFY(window.session().running());
@@ -427,13 +417,8 @@ class WindowFilesTest : public QObject {
         window.session().open(*home_ / "missing.mp4");
         QVERIFY(waitFor([&] { return says(window, QStringLiteral("missing.mp4")); }));
         const auto folder = images("a", 4);
-        QMimeData data;
-        data.setUrls({QUrl::fromLocalFile(QString::fromStdString(folder.string()))});
-        QDragEnterEvent enter({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
-        QApplication::sendEvent(&window, &enter);
-        QDropEvent drop({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
         QSignalSpy ready(&window.session(), &ProjectSession::ready);
-        QApplication::sendEvent(&window, &drop);
+        test::drop(window, folder);
         QVERIFY(ready.wait(kPatience_ms));
         QVERIFY(!says(window, QStringLiteral("missing.mp4")));
     }
