@@ -38,8 +38,8 @@ class Detector {
     }
 
     /// The trained classifier that takes part, for who asks it about other boxes; null where none does. Lives as long
-    /// as the detector; copies of it share everything.
-    virtual const VehicleModel* model() const { return nullptr; }
+    /// as the detector; copies of it share everything. No default: what hands on to other detectors must hand this on, too.
+    virtual const VehicleModel* model() const = 0;
 };
 
 }  // namespace eyrie

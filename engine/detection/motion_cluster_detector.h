@@ -11,6 +11,7 @@ class MotionClusterDetector : public Detector {
     explicit MotionClusterDetector(double margin_px) : margin_px_(margin_px) {}
 
     std::vector<Detection> detect(const MotionRoi& roi, DetectionTrace* trace = nullptr) const override;
+    const VehicleModel* model() const override { return nullptr; }
 
  private:
     double margin_px_;

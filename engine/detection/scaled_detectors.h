@@ -21,6 +21,8 @@ class ScaledDetectors : public Detector {
     std::vector<Detection> detect(const MotionRoi& roi, DetectionTrace* trace = nullptr) const override;
     std::unique_ptr<const PreparedArea> prepare(const MotionRoi& roi) const override;
     std::vector<Detection> decide(const MotionRoi& roi, const PreparedArea* prepared) const override;
+    /// That of all of them.
+    const VehicleModel* model() const override { return detectors_.front()->model(); }
 
  private:
     int stepAt(cv::Point2d place) const;

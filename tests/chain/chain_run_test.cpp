@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "chain/chain.h"
 #include "core/error.h"
 #include "support/moving_scene.h"
@@ -54,6 +56,23 @@ TEST(ChainRun, followsEveryVehicleUnderAPanningCamera) {
         }
     }
     EXPECT_GE(followed, wanted * 9 / 10);
+}
+
+// Tracks are scored by it: without it false alarms stay.
+TEST(ChainRun, theClassifierIsAskedAboutBoxesInAnObliqueViewToo) {
+    test::MovingScene scene;
+    scene.frames = 14;
+    for (const double down : {0.0, 0.0005}) {
+        test::MemorySource source(scene);
+        Collector collector;
+        SceneScale tilted = scale();
+        tilted.slope = ScaleSlope::ofPicture(scene.size, 0, down);
+        ASSERT_EQ(ChainRun(ChainOptions{}, tilted).run(source, {}, collector, {}).outcome, RunOutcome::finished);
+        int asked = 0;
+        for (const auto& result : collector.results)
+            for (const Detection& detection : result->detections) asked += std::isfinite(detection.decision);
+        EXPECT_GT(asked, 0) << down;
+    }
 }
 
 TEST(ChainRun, runningTheHalvesSideBySideChangesNothing) {

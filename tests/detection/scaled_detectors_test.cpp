@@ -5,6 +5,9 @@
 #include <set>
 
 #include "core/error.h"
+#include "detection/detector_factory.h"
+#include "detection/detector_table.h"
+#include "detection/trained_window_model.h"
 
 namespace eyrie::scaled_detectors_test {
 namespace {
@@ -19,6 +22,7 @@ class TellsItsScale : public Detector {
         detection.complete = scale_.slope.isFlat();
         return {detection};
     }
+    const VehicleModel* model() const override { return nullptr; }
 
  private:
     SceneScale scale_;
@@ -49,6 +53,19 @@ TEST(ScaledDetectors, ASearchAreaGoesToTheDetectorOfItsScale) {
     EXPECT_EQ(detectors.detect(areaAt(100, 300)).at(0).score, 0.2) << "the given scale itself in the middle";
     EXPECT_EQ(detectors.detect(areaAt(100, 9000)).at(0).score, detectors.detect(areaAt(100, 600)).at(0).score)
         << "beyond the picture as at its edge";
+}
+
+TEST(ScaledDetectors, AClassifierThatTakesPartCanBeAskedInAnObliqueViewToo) {
+    DetectionOptions options;
+    options.sliding_window = test::drivenSceneWindow();
+    SceneScale flat = tilted();
+    flat.slope = {};
+    for (const DetectionMethod method : allDetectionMethods()) {
+        options.method = method;
+        for (const SceneScale& scale : {flat, tilted()})
+            EXPECT_EQ(makeDetector(options, scale)->model() != nullptr, looksThroughWindows(method))
+                << kindOf(method).name << (scale.slope.isFlat() ? ", flat" : ", oblique");
+    }
 }
 
 TEST(ScaledDetectors, EachOfThePictureIsMadeOnce) {

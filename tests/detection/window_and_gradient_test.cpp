@@ -23,6 +23,7 @@ class Told : public Detector {
         }
         return found;
     }
+    const VehicleModel* model() const override { return nullptr; }
 
  private:
     std::vector<OrientedBox> boxes_;
@@ -104,6 +105,7 @@ class Shown : public Detector {
         trace->checks.push_back({"of the area", "b", 1, 1, false, true});
         return {};
     }
+    const VehicleModel* model() const override { return nullptr; }
 };
 
 TEST(WindowAndGradient, LayersOfTheMiddleAreShownWhereTheyLieInTheSearchArea) {

@@ -21,6 +21,7 @@ class GradientSegmenter : public Detector {
     /// The closed gradient image and the ranks of its values: another quantile is another threshold of the same image.
     std::unique_ptr<const PreparedArea> prepare(const MotionRoi& roi) const override;
     std::vector<Detection> decide(const MotionRoi& roi, const PreparedArea* prepared) const override;
+    const VehicleModel* model() const override { return nullptr; }
 
     /// Gradient magnitude of a CV_8UC1 image by the chosen method, CV_32FC1.
     cv::Mat gradientOf(const cv::Mat& gray) const;

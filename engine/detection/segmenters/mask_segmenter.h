@@ -17,6 +17,7 @@ class MaskSegmenter : public Detector {
 
     /// Trace layers: raw, those of the method, components.
     std::vector<Detection> detect(const MotionRoi& roi, DetectionTrace* trace = nullptr) const final;
+    const VehicleModel* model() const final { return nullptr; }
 
  protected:
     /// The pixels of objects, CV_8UC1 of the ROI's size, 0 or 255. The ROI is at least 3 px a side.
