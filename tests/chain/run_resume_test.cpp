@@ -435,6 +435,8 @@ TEST(KeptStates, ServeEveryFrameTheyWereKeptAfter) {
     ChainRun({}, scale).run(source, {}, whole, {});
     ASSERT_GT(whole.states.size(), 3U);
     for (const ChainState& state : whole.states) {
+        // Around the pictures that repeat and are blank every one; before and after, every other is enough.
+        if (state.last_done % 2 == 0 && (state.last_done < 14 || state.last_done > 30)) continue;
         Keeper rest(kFollowed);
         const RunSummary summary = ChainRun({}, scale).run(source, {}, rest, rest.stop.get_token(), false,
                                                            {unpackedState(state.bytes, {}, scale, source), 0});

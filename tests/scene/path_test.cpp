@@ -32,6 +32,21 @@ TEST(Path, roundsCornersWithArcs) {
     EXPECT_NEAR(left.curvature(40 + 2.5 * kPi), -0.1, 0.002);
 }
 
+TEST(Path, whatIsCalledStraightHasNoBend) {
+    // Bends from 40 m to 40 + 5 π m, over vertices half a metre apart; a bend is measured 1.5 m around a place.
+    const Path path = Path::rounded({{0, 0}, {50, 0}, {50, 50}}, 10);
+    EXPECT_TRUE(path.isStraight(2, 37));
+    EXPECT_TRUE(path.isStraight(60, 75));
+    EXPECT_FALSE(path.isStraight(2, 45));
+    EXPECT_FALSE(path.isStraight(39, 39.5));
+    EXPECT_FALSE(path.isStraight(45, 47));
+    EXPECT_FALSE(path.isStraight(54, 80));
+    for (double s = 0; s < path.length(); s += 0.1) {
+        if (!path.isStraight(s, s)) continue;
+        EXPECT_NEAR(path.curvature(s), 0, 1e-8) << s;
+    }
+}
+
 TEST(Path, directionTurnsWithoutJumps) {
     const Path path = Path::rounded({{0, 0}, {50, 0}, {50, 50}}, 10);
     for (double s = 0; s < path.length(); s += 0.1) {

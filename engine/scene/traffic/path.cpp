@@ -9,7 +9,9 @@
 namespace eyrie {
 namespace {
 
-constexpr double kStep = 0.5;  ///< metres between the vertices of rounded paths
+constexpr double kStep = 0.5;       ///< metres between the vertices of rounded paths
+constexpr double kSameWay = 1e-9;   ///< by which unit tangents of a straight part may differ
+constexpr double kBendReach = 1.5;  ///< m before and after, over which a bend is measured
 
 double norm(cv::Point2d v) {
     return std::sqrt(v.x * v.x + v.y * v.y);
@@ -46,6 +48,13 @@ Path::Path(std::vector<cv::Point2d> points) {
         const cv::Point2d before = points_[i == 0 ? 0 : i - 1];
         const cv::Point2d after = points_[std::min(i + 1, points_.size() - 1)];
         directions_.push_back(unitOf(after - before));
+    }
+    turns_.resize(points_.size());
+    std::size_t turn = 0;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+        turn = std::max(turn, i + 1);
+        while (turn < points_.size() && norm(directions_[turn] - directions_[i]) <= kSameWay) ++turn;
+        turns_[i] = turn;
     }
 }
 
@@ -117,10 +126,13 @@ cv::Point2d Path::beside(double s, double right) const {
 }
 
 double Path::curvature(double s) const {
-    const double reach = 1.5;
-    const cv::Point2d before = direction(s - reach);
-    const cv::Point2d after = direction(s + reach);
-    return (before.x * after.y - before.y * after.x) / (2 * reach);
+    const cv::Point2d before = direction(s - kBendReach);
+    const cv::Point2d after = direction(s + kBendReach);
+    return (before.x * after.y - before.y * after.x) / (2 * kBendReach);
+}
+
+bool Path::isStraight(double from, double to) const {
+    return turns_[pieceAt(from - kBendReach)] > pieceAt(to + kBendReach) + 1;
 }
 
 double Path::nearest(cv::Point2d point, double from, double to) const {
@@ -135,8 +147,12 @@ double Path::nearest(cv::Point2d point, double from, double to) const {
     };
     const auto search = [&](std::size_t low, std::size_t high, std::size_t step) {
         std::size_t best = low;
-        for (std::size_t i = low; i < high; i += step) {
-            if (distance(i) < distance(best)) best = i;
+        double least = distance(low);
+        for (std::size_t i = low + step; i < high; i += step) {
+            const double here = distance(i);
+            if (!(here < least)) continue;
+            best = i;
+            least = here;
         }
         return best;
     };

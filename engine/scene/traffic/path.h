@@ -28,6 +28,8 @@ class Path {
     cv::Point2d beside(double s, double right) const;
     /// Bend in 1/m, positive to the right.
     double curvature(double s) const;
+    /// Whether nothing between two arc lengths bends enough for anybody to slow down; quickly told.
+    bool isStraight(double from, double to) const;
     /// Arc length of the nearest vertex in [from, to]; the curve's vertices are about half a metre apart when rounded.
     double nearest(cv::Point2d point, double from, double to) const;
     double nearest(cv::Point2d point) const { return nearest(point, 0, length()); }
@@ -39,6 +41,7 @@ class Path {
     std::vector<cv::Point2d> points_;
     std::vector<double> lengths_;          ///< arc length up to each point
     std::vector<cv::Point2d> directions_;  ///< unit tangent at each point
+    std::vector<std::size_t> turns_;       ///< the first later point whose tangent is another one
 };
 
 /// The right-hand normal of a direction when y points down.

@@ -15,6 +15,7 @@ constexpr double kHardBraking = 7.0;     ///< m/s²
 constexpr double kSideways = 2.6;        ///< m/s² in bends
 constexpr double kLaneChangeTime = 3.2;  ///< s
 constexpr double kSight = 60;            ///< m
+constexpr double kBendSight = 35;        ///< m
 
 struct Mover {
     const Driver* driver = nullptr;
@@ -39,8 +40,9 @@ double fourth(double x) {
 /// The speed the driver would take on an empty road.
 double freeSpeed(const Mover& mover) {
     double speed = mover.driver->desired_speed;
+    if (mover.route->path.isStraight(mover.s, mover.s + kBendSight)) return std::max(speed, 0.5);
     // Slow down in time for bends: v² = v_bend² + 2 b d.
-    for (double ahead = 0; ahead < 35; ahead += 2.5) {
+    for (double ahead = 0; ahead < kBendSight; ahead += 2.5) {
         const double bend = std::abs(mover.route->path.curvature(mover.s + ahead));
         if (bend > 1e-4) speed = std::min(speed, std::sqrt(kSideways / bend + 2 * kBraking * 0.6 * ahead));
     }
@@ -138,6 +140,7 @@ class Simulation {
         for (Mover& mover : movers_) {
             if (!mover.present && !mover.gone && time_ >= mover.driver->enter_time && entryIsFree(mover))
                 mover.present = true;
+            if (!mover.present) continue;  // nobody asks where it is
             const double strayed =
                 mover.side +
                 0.12 * portable::sine(mover.s / 23 + static_cast<double>(mover.driver->look.seed % 628) / 100);
@@ -151,7 +154,7 @@ class Simulation {
             }
             const cv::Point2d heading = tangent + rightOf(tangent) * slant;
             mover.direction = heading * (1 / std::sqrt(heading.dot(heading)));
-            if (mover.present && mover.s > mover.route->path.length() - 1) {
+            if (mover.s > mover.route->path.length() - 1) {
                 mover.present = false;
                 mover.gone = true;
             }
