@@ -297,6 +297,7 @@ TEST(ChainOptions, theThesisPresetDiffersFromTheDefaultsWhereItMust) {
         {"sliding_window.need_support", "false"},
         {"sliding_window.middle_scale", "1"},
         {"sliding_window.largest_scale", "3.8"},
+        {"sliding_window.decision_threshold", "30"},
         {"sliding_window.rejection_margin", "1000"},
         {"sliding_window.context", "0"},
         {"tophat_otsu.min_contrast", "0"},

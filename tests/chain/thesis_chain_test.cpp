@@ -186,6 +186,7 @@ TEST(ThesisChain, noClusterIsTooSmallToBeSearched) {
 
 TEST(ThesisChain, slidingWindowsFindVehiclesByTheModelOfTheText) {
     constexpr double kCar = 4.6, kCarWidth = 2.0;  // m, of a vehicle that fills the window
+    constexpr double kThreshold = 30;              // T_d of the model of the text
     ChainOptions options = builtInPreset("thesis");
     options.detection.method = DetectionMethod::sliding_window;
     const SceneRenderer scene(scenePreset("egtest01"));
@@ -203,7 +204,7 @@ TEST(ThesisChain, slidingWindowsFindVehiclesByTheModelOfTheText) {
                 return overlap(object.box, detection.box) > 0.2;
             });
             EXPECT_TRUE(detection.complete) << "the classifier's own";
-            EXPECT_GE(detection.score, 0) << "T_d";
+            EXPECT_GE(detection.score, kThreshold) << "T_d";
             EXPECT_GE(detection.vectors.size(), 4U);
             // The window has one width and three lengths; areas are scaled to whole pixels.
             EXPECT_NEAR(detection.box.width / scale.px(kCarWidth), 1, 0.05);

@@ -27,12 +27,13 @@ class TrainCommand : public testing::Test {
     }
     std::string at(const std::string& name) const { return (folder / name).string(); }
 
-    /// A folder of patch sheets with drawn vehicles, their axis horizontal.
-    void sheets(const std::string& name, std::uint64_t seed) const {
+    /// A folder of patch sheets with drawn vehicles, their axis horizontal; with their sizes, if wanted, of which the
+    /// first is said to be longer than its cell.
+    void sheets(const std::string& name, std::uint64_t seed, bool sized = false) const {
         constexpr int rows = 3;
         std::filesystem::create_directories(folder / name);
         std::ofstream table(folder / name / "patches.csv");
-        table << "kind,row,column,group,duplicate\n";
+        table << "kind,row,column,group,duplicate" << (sized ? ",length_px,width_px\n" : "\n");
         SeededRandom random(seed);
         for (const bool vehicle : {true, false}) {
             cv::Mat sheet(rows * 16, 32 * 32, CV_8UC1);
@@ -40,7 +41,9 @@ class TrainCommand : public testing::Test {
                 cv::Mat lying;
                 cv::rotate(test::drawnWindow(vehicle, random), lying, cv::ROTATE_90_CLOCKWISE);
                 lying.copyTo(sheet(cv::Rect(i % 32 * 32, i / 32 * 16, 32, 16)));
-                table << (vehicle ? "pos," : "neg,") << i / 32 << "," << i % 32 << ",group" << i % 5 << ",0\n";
+                table << (vehicle ? "pos," : "neg,") << i / 32 << "," << i % 32 << ",group" << i % 5 << ",0";
+                if (sized) table << (!vehicle ? ",," : i == 0 ? ",40,9" : ",21,9");
+                table << "\n";
             }
             cv::imwrite(at(name + (vehicle ? "/pos.png" : "/neg.png")), sheet);
         }
@@ -71,6 +74,26 @@ TEST_F(TrainCommand, makesAModelThatClassifyMeasures) {
     const auto text = cli({"classify", "--model", at("m.eyriemodel"), "--patches", at("two"), "--roc", at("r.csv")});
     EXPECT_THAT(text.output, HasSubstr("AUC"));
     EXPECT_GT(std::filesystem::file_size(folder / "r.csv"), 50U);
+}
+
+TEST_F(TrainCommand, cutsSheetsAsTheModelWantsThem) {
+    sheets("sized", 1, true);
+    sheets("other", 2, true);
+    const std::string filled = "training.fill_window=true", model = at("filled.eyriemodel");
+    const auto trained = cli({"train", "--samples", at("sized"), "--out", model, "--trees", "20", "--set", filled});
+    ASSERT_EQ(trained.exit_code, 0) << trained.errors;
+    EXPECT_THAT(trained.output, HasSubstr("sized: 95 vehicles, 96 others")) << "all that their cells hold";
+    const auto measured = cli({"classify", "--model", model, "--patches", at("other"), "--json"});
+    ASSERT_EQ(measured.exit_code, 0) << measured.errors;
+    EXPECT_EQ(nlohmann::json::parse(measured.output)["vehicles"], 95);
+    EXPECT_GT(nlohmann::json::parse(measured.output)["auc"], 0.8);
+    const auto compared = cli({"classify-test", "--samples", at("sized") + "," + at("other"), "--descriptors", "hog",
+                               "--classifiers", "adaboost", "--set", "training.trees=10", "--set", filled, "--json"});
+    ASSERT_EQ(compared.exit_code, 0) << compared.errors;
+    for (const auto& source : nlohmann::json::parse(compared.output)["sources"]) EXPECT_EQ(source["vehicles"], 95);
+    ASSERT_EQ(train({"--quiet"}).exit_code, 0);
+    const auto whole = cli({"classify", "--model", at("m.eyriemodel"), "--patches", at("other"), "--json"});
+    EXPECT_EQ(nlohmann::json::parse(whole.output)["vehicles"], 96) << "with the ground around them";
 }
 
 TEST_F(TrainCommand, cutsLabelledFrames) {

@@ -326,12 +326,13 @@ TEST(ModelLocation, TheModelOfTheThesisIsTrainedAsItsTextSays) {
     const TrainingRecord& record = model.record;
     EXPECT_EQ(record.hard_negative_rounds, 0);
     EXPECT_EQ(record.vehicles, record.others) << "as many of the background as of vehicles";
+    EXPECT_EQ(model.fit, WindowFit::filled()) << "the vehicle itself is cut out";
     EXPECT_THAT(record.data, testing::Not(testing::HasSubstr("rendered"))) << "pictures of the world alone";
     // Every tree sees all features and all samples, and the samples are no copies.
     for (const char* setting :
          {"training.trees = 1000\n", "training.hard_negative_rounds = 0\n", "training.feature_share = 1\n",
           "training.weight_trimming = 0\n", "training.duplicates = false\n", "training.mirrored = false\n",
-          "training.varied_copies = 0\n", "training.misfit_copies = 0\n"})
+          "training.varied_copies = 0\n", "training.misfit_copies = 0\n", "training.fill_window = true\n"})
         EXPECT_THAT(record.settings, testing::HasSubstr(setting));
     EXPECT_NE(modelLocation("thesis"), modelLocation(""));
 }

@@ -61,6 +61,59 @@ TEST_F(PatchSheets, areReadAndTurnedUpright) {
     EXPECT_EQ(readPatchSheets(folder.path() / "").front().source, samples[0].source);
 }
 
+TEST_F(PatchSheets, areCutSoThatAVehicleFillsItsWindow) {
+    cv::Mat vehicles(16, 96, CV_8UC1, cv::Scalar(50));
+    vehicles(cv::Rect(4, 4, 24, 8)).setTo(200);        // a vehicle of 24×8 px in the middle of the first cell
+    vehicles(cv::Rect(32 + 8, 2, 16, 12)).setTo(200);  // a shorter, wider one in the second
+    cv::imwrite((folder / "pos.png").string(), vehicles);
+    cv::Mat other(16, 32, CV_8UC1, cv::Scalar(90));
+    other(cv::Rect(5, 2, 22, 12)).setTo(120);  // a little more than a median car takes
+    cv::imwrite((folder / "neg.png").string(), other);
+    const std::string rows =
+        "pos,0,0,0,a,g1,0,24,8\npos,1,0,1,a,g2,1,16.0,12\npos,2,0,2,a,g3,0,36,9\nneg,0,0,0,b,g4,0,,\n";
+    table("kind,index,row,column,file,group,duplicate,length_px,width_px\n" + rows);
+
+    const SampleSet filled = readPatchSheets(folder.path(), WindowFit::filled());
+    ASSERT_EQ(filled.size(), 3U) << "the third is longer than its cell";
+    const cv::Rect inside(1, 2, 14, 28);  // off the box's own edge, which lies between two pixels
+    for (const int vehicle : {0, 1}) {
+        const Sample& sample = filled[static_cast<std::size_t>(vehicle)];
+        EXPECT_EQ(sample.window.size(), cv::Size(16, 32));
+        EXPECT_TRUE(sample.vehicle);
+        EXPECT_EQ(overlapWithAll(sample.window(inside), 200), 1) << vehicle;
+        EXPECT_GT(cv::mean(sample.window)[0], 185) << vehicle;
+    }
+    EXPECT_EQ(filled[0].group, "g1");
+    EXPECT_TRUE(filled[1].duplicate);
+    EXPECT_FALSE(filled[2].vehicle);
+    EXPECT_EQ(overlapWithAll(filled[2].window, 120), 1) << "others as a median car: 21.5 × 10 px";
+
+    const SampleSet whole = readPatchSheets(folder.path());
+    ASSERT_EQ(whole.size(), 4U);
+    EXPECT_EQ(whole[0].window.at<uchar>(1, 8), 50) << "with the ground around it";
+}
+
+TEST_F(PatchSheets, withoutSizesAreTakenAsCutAlready) {
+    table(header + "pos,0,0,1,a,g1,1\n");
+    const SampleSet samples = readPatchSheets(folder.path(), WindowFit::filled());
+    EXPECT_EQ(samples.at(0).window.at<uchar>(1, 3), 200);
+}
+
+TEST_F(PatchSheets, withWrongSizesAreRefusedWhereTheyAreNeeded) {
+    const std::string sized = "kind,index,row,column,file,group,duplicate,length_px,width_px\n";
+    for (const char* size : {"", "x", "0", "-3", "nan", "inf", "1e6", "20px"}) {
+        table(sized + "pos,0,0,0,a,g,0," + size + ",9\n");
+        EXPECT_EQ(readPatchSheets(folder.path()).size(), 1U);
+        try {
+            readPatchSheets(folder.path(), WindowFit::filled());
+            ADD_FAILURE() << size;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::input);
+            EXPECT_THAT(error.what(), HasSubstr("line 2: length_px is \"" + std::string(size) + "\", not a size"));
+        }
+    }
+}
+
 TEST_F(PatchSheets, thatAreDamagedAreRefusedNamingThePlace) {
     EXPECT_THAT(messageOf(), HasSubstr("patches.csv"));
     table("");
@@ -180,6 +233,8 @@ TEST(SampleSet, realSheetsHaveTheirDocumentedSizes) {
     const SampleSet kit = readPatchSheets(test::sharedData("patches/kit_ais"));
     EXPECT_EQ(countOf(kit, true), 2462);
     EXPECT_EQ(countOf(kit, false), 2600);
+    EXPECT_EQ(readPatchSheets(test::sharedData("patches/kit_ais"), WindowFit::filled()).size(), kit.size())
+        << "every vehicle lies in its cell";
     const SampleSet minsk = readPatchSheets(test::sharedData("patches/minsk_dji"));
     EXPECT_EQ(countOf(minsk, true), 780);
     EXPECT_EQ(countOf(minsk, false), 5200);

@@ -95,10 +95,10 @@ std::vector<std::string> sampleFolders(const std::vector<std::string>& lists) {
     return folders;
 }
 
-SampleSet readSampleFolders(const std::vector<std::string>& folders) {
+SampleSet readSampleFolders(const std::vector<std::string>& folders, const WindowFit& fit) {
     SampleSet samples;
     for (const std::string& folder : sampleFolders(folders)) {
-        SampleSet read = readPatchSheets(folder);
+        SampleSet read = readPatchSheets(folder, fit);
         std::move(read.begin(), read.end(), std::back_inserter(samples));
     }
     return samples;

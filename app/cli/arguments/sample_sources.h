@@ -12,8 +12,9 @@ namespace eyrie::cli {
 /// The single folders of a list: an entry may hold several, divided by commas.
 std::vector<std::string> sampleFolders(const std::vector<std::string>& lists);
 
-/// Folders of patch sheets, one after the other; an entry may list several, divided by commas. Throws Error(input).
-SampleSet readSampleFolders(const std::vector<std::string>& folders);
+/// Folders of patch sheets, one after the other, cut for `fit`; an entry may list several, divided by commas. Throws
+/// Error(input).
+SampleSet readSampleFolders(const std::vector<std::string>& folders, const WindowFit& fit);
 
 /// Paints `frames` frames of the built-in kinds of scenes, but of other scenes than those that one evaluates on:
 /// `seed` and the frame choose them. All vehicles that are clearly seen are labelled; parked ones, persons and

@@ -22,7 +22,7 @@ struct ClassifyArguments {
 int classifyPatches(const ClassifyArguments& arguments) {
     arguments.outputs.check({{arguments.roc, FileKind::text}}, {arguments.model, arguments.patches});
     const VehicleModel model = loadModel(arguments.model);
-    const SampleSet samples = readPatchSheets(arguments.patches);
+    const SampleSet samples = readPatchSheets(arguments.patches, model.fit);
     const ClassificationResult result = classify(model, samples);
     if (!arguments.roc.empty()) writeRocCsv(arguments.roc, result.curve);
     if (arguments.json) {

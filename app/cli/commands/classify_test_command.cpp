@@ -45,7 +45,8 @@ using SetsBySource = std::map<std::string, SampleSet>;
 SetsBySource readSets(const ClassifyTestArguments& arguments, const SampleCutting& cutting,
                       const std::stop_token& stop) {
     SetsBySource sets;
-    for (Sample& sample : readSampleFolders(arguments.samples)) sets[sample.source].push_back(std::move(sample));
+    for (Sample& sample : readSampleFolders(arguments.samples, cutting.fit))
+        sets[sample.source].push_back(std::move(sample));
     if (arguments.rendered > 0) {
         const auto images = renderLabelledImages(arguments.rendered, static_cast<std::uint64_t>(arguments.seed),
                                                  !arguments.quiet, stop);

@@ -116,7 +116,7 @@ int run(const TrainArguments& arguments) {
     }
     arguments.outputs.check({{arguments.out, FileKind::model}}, inputsOf(arguments));
     return untilStopped([&](const std::stop_token& stop) {
-        SampleSet samples = readSampleFolders(arguments.samples);
+        SampleSet samples = readSampleFolders(arguments.samples, options.cutting().fit);
         const std::vector<LabelledImage> images = labelledImages(arguments, options, stop);
         SampleSet cut = samplesFromImages(images, static_cast<std::uint64_t>(options.seed), options.cutting());
         std::move(cut.begin(), cut.end(), std::back_inserter(samples));

@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.h"
+#include "core/geometry/angle.h"
 #include "learning/models/window.h"
 #include "learning/training/sample_set.h"
 
@@ -15,6 +16,8 @@ namespace fs = std::filesystem;
 
 constexpr int kCellWidth = kWindowHeight;  // the axis is horizontal in the sheets
 constexpr int kCellHeight = kWindowWidth;
+constexpr double kLargestSize = 1e5;  // px
+constexpr double kInCell = 0.95;      // share of a vehicle that has to be in its cell to be cut out of it
 
 cv::Mat readSheet(const fs::path& path) {
     std::error_code ignored;
@@ -77,15 +80,16 @@ class PatchTable {
         return true;
     }
 
+    bool has(const char* name) const { return std::find(names_.begin(), names_.end(), name) != names_.end(); }
+
     const std::string& text(const char* name) const { return fields_[indexOf(name)]; }
 
-    int number(const char* name) const {
-        const std::string& field = text(name);
-        int value = 0;
-        const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-        if (error != std::errc() || end != field.data() + field.size()) {
-            fail(std::string(name) + " is \"" + field.substr(0, 40) + "\", not a whole number");
-        }
+    int number(const char* name) const { return valueOf<int>(name, "not a whole number"); }
+
+    double size(const char* name) const {
+        const char* const wrong = "not a size";
+        const double value = valueOf<double>(name, wrong);
+        if (!(value > 0 && value < kLargestSize)) failAt(name, wrong);
         return value;
     }
 
@@ -94,6 +98,19 @@ class PatchTable {
     }
 
  private:
+    template <class Value>
+    Value valueOf(const char* name, const char* wrong) const {
+        const std::string& field = text(name);
+        Value value{};
+        const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+        if (error != std::errc() || end != field.data() + field.size()) failAt(name, wrong);
+        return value;
+    }
+
+    [[noreturn]] void failAt(const char* name, const char* why) const {
+        fail(std::string(name) + " is \"" + text(name).substr(0, 40) + "\", " + why);
+    }
+
     std::size_t indexOf(const char* name) const {
         const auto at = std::find(names_.begin(), names_.end(), name);
         if (at == names_.end()) {
@@ -109,14 +126,20 @@ class PatchTable {
     int line_ = 1;
 };
 
+/// A vehicle of that size in the middle of an upright cell.
+OrientedBox inMiddle(double length, double width) {
+    return {{(kWindowWidth - 1) / 2.0, (kWindowHeight - 1) / 2.0}, length, width, -kPi / 2};
+}
+
 }  // namespace
 
-SampleSet readPatchSheets(const fs::path& folder) {
+SampleSet readPatchSheets(const fs::path& folder, const WindowFit& fit) {
     PatchTable table(folder / "patches.csv");
     const cv::Mat vehicles = readSheet(folder / "pos.png");
     const cv::Mat others = readSheet(folder / "neg.png");
     fs::path named = fs::absolute(folder).lexically_normal();
     if (!named.has_filename()) named = named.parent_path();
+    const bool cut_again = fit != WindowFit{} && table.has("length_px") && table.has("width_px");
     SampleSet samples;
     while (table.next()) {
         Sample sample;
@@ -135,6 +158,12 @@ SampleSet readPatchSheets(const fs::path& folder) {
         }
         const cv::Rect cell(column * kCellWidth, row * kCellHeight, kCellWidth, kCellHeight);
         cv::rotate(sheet(cell), sample.window, cv::ROTATE_90_COUNTERCLOCKWISE);
+        if (cut_again) {
+            const OrientedBox box = sample.vehicle ? inMiddle(table.size("length_px"), table.size("width_px"))
+                                                   : inMiddle(kCarLengthInWindow, kCarWidthInWindow);
+            if (areaInImage(box, sample.window.size()) < kInCell * box.area()) continue;
+            sample.window = cutWindow(sample.window, box, fit);
+        }
         samples.push_back(std::move(sample));
     }
     if (samples.empty()) throw Error(ErrorKind::input, (folder / "patches.csv").string() + ": lists no sample");

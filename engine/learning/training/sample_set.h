@@ -24,8 +24,11 @@ using SampleSet = std::vector<Sample>;
 
 /// Reads a folder of patch sheets: `pos.png` and `neg.png` hold cells 32 wide and 16 high, the vehicle's axis
 /// horizontal; `patches.csv` has at least the columns kind (pos | neg), row, column, group and duplicate, a line per
-/// cell. The folder's name becomes the source. Throws Error(input) naming the file and line.
-SampleSet readPatchSheets(const std::filesystem::path& folder);
+/// cell. The folder's name becomes the source. Sheets show a median car as in WindowFit{}; for another `fit` each
+/// vehicle is cut out of the middle of its cell by the columns length_px and width_px, if the table has them (one that
+/// its cell does not hold is left out), and of others what a median car would take. Without these columns cells are
+/// taken as they are, for whoever cut them so. Throws Error(input) naming the file and line.
+SampleSet readPatchSheets(const std::filesystem::path& folder, const WindowFit& fit = {});
 
 /// Number of vehicles (or others) in a set.
 int countOf(const SampleSet& samples, bool vehicle);

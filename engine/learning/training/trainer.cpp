@@ -179,12 +179,14 @@ void TrainingOptions::describe(ParameterVisitor& visitor) {
                  {"", "Samples of background that each further round adds, per sample of a vehicle.", ""});
     declare.flag("training.duplicates", duplicates,
                  {"", "Whether samples that are nearly equal to others are used, too.", ""});
-    declare.flag("training.fill_window", fill_window,
-                 {"",
-                  "Cut samples as the thesis says: a vehicle's box fills the window, and background comes from places "
-                  "where no vehicle is visible. Off: with the ground around vehicles, some background right beside "
-                  "them. Patch sheets are taken as they are and have to be cut the same way.",
-                  "Teutsch §7.2"});
+    declare.flag(
+        "training.fill_window", fill_window,
+        {"",
+         "Cut samples as the thesis says: a vehicle's box fills the window, and background comes from places "
+         "where no vehicle is visible. Off: with the ground around vehicles, some background right beside "
+         "them. Of patch sheets, too, if their table has the columns length_px and width_px; else they are taken as "
+         "they are.",
+         "Teutsch §7.2"});
     declare.flag(
         "training.mirrored", mirrored,
         {"", "Whether vehicles are shown mirrored, too: sides exchanged, front and rear exchanged, both.", ""});
