@@ -38,7 +38,7 @@ class Detector {
     }
 
     /// The trained classifier that takes part, for who asks it about other boxes; null where none does. Lives as long
-    /// as the detector; copies of it share everything. No default: what hands on to other detectors must hand this on, too.
+    /// as the detector; copies of it share everything. No default: who hands on to other detectors hands this on, too.
     virtual const VehicleModel* model() const = 0;
 };
 

@@ -163,6 +163,8 @@ TEST_F(Batches, aListOfPartsIsOneVideoAndItsPartsAreNone) {
     EXPECT_FALSE(fs::exists(at("out/rec/a.eyrie")));
 
     write("in/rec/whole.parts", "file\nb.mp4\n");
+    // Later than its run began, by whole seconds.
+    fs::last_write_time(folder / "in/rec/whole.parts", fs::file_time_type::clock::now() + std::chrono::seconds(5));
     const auto again = batch();
     EXPECT_THAT(inState("done"), ElementsAre("rec/a.mp4", "rec/whole.parts")) << again.output;
     EXPECT_EQ(runsOf("out/rec/whole.eyrie").back().frames_done, kFrames);
