@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <opencv2/core/utility.hpp>
 
 namespace eyrie {
 namespace {
@@ -104,6 +106,35 @@ GroundPath pieceFrom(const EventTrack& track, std::size_t first, const GroundStr
     return path;
 }
 
+/// The paths of one track, a piece for each ground.
+std::vector<GroundPath> piecesOf(const EventTrack& track, const GroundStretches& ground, const EventOptions& options) {
+    const SceneScale& scale = ground.footage().scale;
+    const double half_window = std::max(2.0, options.smooth_s * scale.frame_rate_hz / 2);
+    std::vector<GroundPath> pieces;
+    for (std::size_t i = 0; i < track.boxes.size();) {
+        if (ground.indexOf(track.boxes[i].frame) < 0) {
+            ++i;
+            continue;
+        }
+        std::vector<cv::Point2d> raw;
+        GroundPath path = pieceFrom(track, i, ground, raw);
+        i += path.samples.size();
+        path.measured = path.samples.size() >= kFewestInWindow &&
+                        path.samples.back().frame - path.samples.front().frame >= half_window;
+        if (path.measured) {
+            measure(path, raw, half_window, scale.frame_rate_hz);
+            const TrackedBox& middle = path.box(path.samples.size() / 2);
+            const double noise_m = options.noise * ground.metresHere(middle.frame, middle.box.centre);
+            const double noise = speedOfNoise(noise_m, half_window, scale.frame_rate_hz);
+            const double standing = std::max(options.standing_speed_kmh / 3.6, noise);
+            tellMoving(path, standing, std::max({options.moving_speed_kmh / 3.6, standing, 1.5 * noise}));
+            removeShortSpans(path, std::max(options.min_way_m, 2 * kSure * noise_m), options, scale);
+        }
+        pieces.push_back(std::move(path));
+    }
+    return pieces;
+}
+
 }  // namespace
 
 std::vector<SampleSpan> spansOf(const GroundPath& path, bool moving) {
@@ -145,32 +176,17 @@ std::size_t sampleAt(const GroundPath& path, FrameIndex frame) {
 
 std::vector<GroundPath> groundPaths(const std::vector<EventTrack>& tracks, const GroundStretches& ground,
                                     const EventOptions& options) {
-    const SceneScale& scale = ground.footage().scale;
-    const double half_window = std::max(2.0, options.smooth_s * scale.frame_rate_hz / 2);
-    std::vector<GroundPath> paths;
-    for (const EventTrack& track : tracks) {
-        for (std::size_t i = 0; i < track.boxes.size();) {
-            if (ground.indexOf(track.boxes[i].frame) < 0) {
-                ++i;
-                continue;
-            }
-            std::vector<cv::Point2d> raw;
-            GroundPath path = pieceFrom(track, i, ground, raw);
-            i += path.samples.size();
-            path.measured = path.samples.size() >= kFewestInWindow &&
-                            path.samples.back().frame - path.samples.front().frame >= half_window;
-            if (path.measured) {
-                measure(path, raw, half_window, scale.frame_rate_hz);
-                const TrackedBox& middle = path.box(path.samples.size() / 2);
-                const double noise_m = options.noise * ground.metresHere(middle.frame, middle.box.centre);
-                const double noise = speedOfNoise(noise_m, half_window, scale.frame_rate_hz);
-                const double standing = std::max(options.standing_speed_kmh / 3.6, noise);
-                tellMoving(path, standing, std::max({options.moving_speed_kmh / 3.6, standing, 1.5 * noise}));
-                removeShortSpans(path, std::max(options.min_way_m, 2 * kSure * noise_m), options, scale);
-            }
-            paths.push_back(std::move(path));
+    std::vector<std::vector<GroundPath>> of_track(tracks.size());
+    cv::parallel_for_({0, static_cast<int>(tracks.size())}, [&](const cv::Range& range) {
+        for (int i = range.start; i < range.end; ++i) {
+            const auto number = static_cast<std::size_t>(i);
+            of_track[number] = piecesOf(tracks[number], ground, options);
         }
-    }
+    });
+    std::vector<GroundPath> paths;
+    paths.reserve(tracks.size());
+    for (std::vector<GroundPath>& pieces : of_track)
+        paths.insert(paths.end(), std::make_move_iterator(pieces.begin()), std::make_move_iterator(pieces.end()));
     return paths;
 }
 

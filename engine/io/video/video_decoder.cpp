@@ -22,6 +22,11 @@ bool identifiable(std::int64_t pts, std::int64_t position) {
     return pts != kNoStamp || position >= 0;
 }
 
+/// Codecs that say of a picture, for certain, whether any other is decoded by it; in H.265 it depends on the layers.
+bool marksUnreferenced(AVCodecID codec) {
+    return codec == AV_CODEC_ID_H264 || codec == AV_CODEC_ID_MPEG1VIDEO || codec == AV_CODEC_ID_MPEG2VIDEO;
+}
+
 void quietLibraries() {
     static std::once_flag once;
     std::call_once(once, [] { av_log_set_level(AV_LOG_QUIET); });
@@ -174,6 +179,8 @@ bool VideoDecoder::feed() {
         }
         waiting_ = true;
     }
+    const bool left_out = unwanted_ && marksUnreferenced(codec_->codec_id) && unwanted_(next_packet_);
+    codec_->skip_frame = left_out ? AVDISCARD_NONREF : AVDISCARD_DEFAULT;
     // The packet's number travels in place of its stamp and comes out with the picture.
     packet_->pts = next_packet_;
     packet_->dts = AV_NOPTS_VALUE;

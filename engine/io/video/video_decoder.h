@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <unordered_map>
+#include <utility>
 
 #include "io/video/libav.h"
 #include "io/video/video_index.h"
@@ -29,6 +31,9 @@ class VideoDecoder {
     void startAt(int packet);
     /// The next picture in the order of presentation, or nullptr at the end. Valid until the next call.
     const AVFrame* next();
+    /// From the next packet on: pictures of which this says that nobody wants them are not decoded where no other is
+    /// decoded by them, and do not come; others of them still do.
+    void leaveOut(std::function<bool(int packet)> unwanted) { unwanted_ = std::move(unwanted); }
     /// Packet number of the picture that `next` returned last.
     int packetOf(const AVFrame& picture) const { return static_cast<int>(picture.pts); }
     /// Number of the next packet that goes into the decoder.
@@ -52,6 +57,7 @@ class VideoDecoder {
     bool waiting_ = false;  ///< packet_ was read and not yet taken by the decoder
     bool drained_ = false;  ///< the decoder was told that the file has ended
     int next_packet_ = 0;
+    std::function<bool(int packet)> unwanted_;
 };
 
 }  // namespace eyrie

@@ -155,7 +155,17 @@ std::vector<int> VideoReader::startsFor(FrameIndex index) const {
     return starts;
 }
 
+/// Whether a packet is a whole picture that is shown before a frame. What never shows by itself may be the second field
+/// of the picture before it.
+bool VideoReader::showsBefore(FrameIndex index, int packet) const {
+    const auto number = static_cast<std::size_t>(packet);
+    const auto shows = [&](std::size_t each) { return each >= frame_of_packet_.size() || frame_of_packet_[each] >= 0; };
+    return shows(number) && shows(number + 1) && frame_of_packet_[number] < index;
+}
+
 const AVFrame* VideoReader::decodeUpTo(FrameIndex index) {
+    // Far from a key frame half the pictures on the way may be such that nothing depends on.
+    decoder_->leaveOut([this, index](int packet) { return showsBefore(index, packet); });
     while ((picture_ = decoder_->next()) != nullptr) {
         const int packet = decoder_->packetOf(*picture_);
         const FrameIndex frame = frame_of_packet_[static_cast<std::size_t>(packet)];

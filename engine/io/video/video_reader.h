@@ -28,6 +28,7 @@ class VideoReader : public FrameSource {
  private:
     void describe(const SourceOptions& options);
     const AVFrame& pictureOf(FrameIndex index);
+    bool showsBefore(FrameIndex index, int packet) const;
     const AVFrame* decodeUpTo(FrameIndex index);
     std::vector<int> startsFor(FrameIndex index) const;
     void checkIndex(FrameIndex index) const;

@@ -35,6 +35,25 @@ class TimelineViewTest : public QObject {
         QCOMPARE(requested, (std::vector<FrameIndex>{20, 55, 60}));
     }
 
+    void twoClicksOnTheNamesShowAllAndGoNowhere() {
+        TimelineView view;
+        view.resize(1000, 104);
+        view.setTimes(times(1000));
+        view.setCurrentFrame(600);
+        view.zoomBy(20);
+        QVERIFY(!view.axis().showsAll());
+        const QSignalSpy requested(&view, &TimelineView::frameRequested);
+        const QPoint names(static_cast<int>(view.axis().left()) / 2, 60);
+        QTest::mouseClick(&view, Qt::LeftButton, {}, names);
+        QTest::mouseDClick(&view, Qt::LeftButton, {}, names);
+        QVERIFY(view.axis().showsAll());
+        QVERIFY(requested.isEmpty());
+        // Just beside the first frame is on it.
+        QTest::mouseClick(&view, Qt::LeftButton, {}, QPoint(static_cast<int>(view.axis().left()) - 3, 60));
+        QCOMPARE(requested.size(), 2);
+        QCOMPARE(requested.front().front().toInt(), 0);
+    }
+
     void wheelZoomsAroundTheCursor() {
         TimelineView view;
         view.resize(1000, 104);

@@ -1,3 +1,4 @@
+#include <QScopeGuard>
 #include <QSignalSpy>
 #include <QStatusBar>
 #include <QTest>
@@ -154,6 +155,42 @@ class WatchStatesTest : public QObject {
         window->actions().follow_object->trigger();
         const QPointF at = window->canvas().transform().viewFromImage({left_out.box.centre.x, left_out.box.centre.y});
         QVERIFY(QLineF(at, QRectF(window->canvas().rect()).center()).length() < 2);
+    }
+
+    void theCardReadsItsPicturesOnceTheFrameGoneToIsShown() {
+        test::Door door;
+        std::atomic<int> opened = 0, read_by_others = 0;
+        Media media = test::sceneUnderTest(40);
+        media.open = [&](const IndexProgress&, std::stop_token) {
+            const bool is_shown = opened++ == 0;
+            return std::make_unique<test::SceneSource>(40, [&door, &read_by_others, is_shown](FrameIndex frame) {
+                if (is_shown)
+                    door.pass(frame);
+                else
+                    ++read_by_others;
+            });
+        };
+        const auto window = windowWith(media);
+        QVERIFY(window);
+        QVERIFY(test::runAndWait(window->session()));
+        QTRY_VERIFY_WITH_TIMEOUT(window->watching().ground().ground() != nullptr, kPatience_ms);
+        QVERIFY(!window->session().runData()->tracks.empty());
+        window->docks().raise(DockId::card);
+        EventCard& card = window->watching().card().card();
+        window->session().goToFrame(2);
+        QVERIFY(test::shows(window->session(), 2));
+        const auto at_last = qScopeGuard([&door] { door.open(); });  // whoever waits there holds up the rest
+        door.closeFrom(20);
+        const int before = read_by_others;
+        window->session().selectTrack(window->session().runData()->tracks.front().id);
+        window->session().goToFrame(30);
+        QTRY_VERIFY_WITH_TIMEOUT(door.reached() >= 20, kPatience_ms);
+        QTest::qWait(100);
+        QCOMPARE(read_by_others.load(), before);
+        door.open();
+        QTRY_VERIFY_WITH_TIMEOUT(card.story() && !card.story()->chips.empty(), kPatience_ms);
+        QCOMPARE(window->session().shownFrame(), 30);
+        QVERIFY(read_by_others > before);
     }
 
     void whyTheGroundIsNotLaidOutIsToldAndItIsTriedAgain() {

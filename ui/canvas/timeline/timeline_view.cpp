@@ -314,6 +314,8 @@ void TimelineView::mousePressEvent(QMouseEvent* event) {
         emit markClicked(*id);
         return;
     }
+    // Beside the first frame stand names; clicked twice they show all, and the picture stays.
+    if (event->position().x() < axis_.left() - kMarkReach) return;
     scrubbing_ = true;
     emit pointerLeft();  // the video itself shows what is there
     emit frameRequested(axis_.frameAt(event->position().x()), true);

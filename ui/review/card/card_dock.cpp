@@ -15,6 +15,7 @@ CardDock::CardDock(const CardParts& parts)
     : QObject(&parts.docks),
       parts_(parts),
       card_(new EventCard),
+      read_due_(0, [this] { readStory(); }),
       loader_([this](const std::shared_ptr<const VehicleStory>& story) {
           if (asked_ == story->wish) card_->setStory(story, parts_.session.scale());
       }) {
@@ -42,7 +43,10 @@ CardDock::CardDock(const CardParts& parts)
                    {{SessionChange::video, SessionChange::current_run, SessionChange::run_preparing,
                      SessionChange::run_started, SessionChange::run_ended},
                     [this] { explainNothing(); }},
-                   {SessionChange::picture, [this] { card_->setFrame(parts_.session.shownFrame()); }}});
+                   {SessionChange::picture, [this] {
+                        card_->setFrame(parts_.session.shownFrame());
+                        if (waits_for_picture_) readStory();
+                    }}});
     explainNothing();
 }
 
@@ -127,12 +131,22 @@ void CardDock::askForStory() {
     if (!readable || !subject || subject->track == 0) {
         readable ? loader_.cancel() : loader_.close();
         asked_.reset();
+        read_due_.stop();
+        waits_for_picture_ = false;
         return;
     }
     const StoryWish wish{ground, *parts_.session.media(), subject->track, subject->frame};
     if (asked_ == wish) return;
     asked_ = wish;
-    loader_.ask(wish);
+    loader_.cancel();
+    read_due_.start();
+}
+
+/// Both decode a long way from the last key picture; done at once, each would take twice as long.
+void CardDock::readStory() {
+    ProjectSession& session = parts_.session;
+    waits_for_picture_ = !session.playback().playing() && session.shownFrame() != session.currentFrame();
+    if (asked_ && !waits_for_picture_) loader_.ask(*asked_);
 }
 
 }  // namespace eyrie::ui

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "review/card/event_card.h"
+#include "widgets/delayed_call.h"
 
 namespace eyrie::ui {
 
@@ -39,13 +40,17 @@ class CardDock : public QObject {
     void refreshEvent();
     void show(const std::optional<CardSubject>& subject);
     void askForStory();
+    /// Reads the story that was asked for, unless the picture of the frame gone to is still to come.
+    void readStory();
     std::optional<CardSubject> subjectOf(int event) const;
 
     CardParts parts_;
     EventCard* card_;
     bool looked_at_ = false;
     std::optional<StoryWish> asked_;
-    StoryLoader loader_;  ///< last: stops before the rest goes
+    bool waits_for_picture_ = false;
+    DelayedCall read_due_;  ///< once whoever chose something has also gone to its frame
+    StoryLoader loader_;    ///< last: stops before the rest goes
 };
 
 }  // namespace eyrie::ui
