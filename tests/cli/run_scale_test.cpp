@@ -35,7 +35,7 @@ class RunScale : public testing::Test {
 
 TEST_F(RunScale, anEstimateIsKeptWithHowSureItIs) {
     EYRIE_NEED_SHARED_DATA("collage_day");
-    const auto result = call({"run", test::sharedData("collage_day/frames").string(), "--frames", "0:39", "--quiet",
+    const auto result = call({"run", test::sharedData("collage_day/frames").string(), "--frames", "0:29", "--quiet",
                               "--project", at("p.eyrie")});
     ASSERT_EQ(result.exit_code, 0) << result.errors;
     EXPECT_THAT(result.output, HasSubstr("GSD unknown: worked with 0."));

@@ -32,6 +32,24 @@ cv::Mat dirty(cv::Mat picture) {
     return picture;
 }
 
+cv::Matx33d step() {
+    return test::cameraMotion(kSize, 1.6, 0.7, 0, 1);
+}
+
+/// What a camera sees that goes on by that step, drawn once for all.
+const std::vector<cv::Mat>& pictures() {
+    static const std::vector<cv::Mat> drawn = [] {
+        Flight flight;
+        std::vector<cv::Mat> seen;
+        for (int i = 0; i < kDirtyFrames; ++i) {
+            seen.push_back(flight.picture());
+            flight.move(step());
+        }
+        return seen;
+    }();
+    return drawn;
+}
+
 struct DirtyFlight {
     double on_dirt = 0;  ///< corners a frame that keep their place in the picture, once dirt must be known
     double error = 0;    ///< px, mean of the registrations
@@ -40,16 +58,14 @@ struct DirtyFlight {
 
 DirtyFlight fly(const RegistrationOptions& options, bool with_dirt = true) {
     Watch watch(options);
-    Flight flight;
-    watch.seePicture(with_dirt ? dirty(flight.picture()) : flight.picture());
     DirtyFlight result;
-    for (int i = 1; i < kDirtyFrames; ++i) {
-        const cv::Matx33d step = test::cameraMotion(kSize, 1.6, 0.7, 0, 1);
-        flight.move(step);
-        const RegisteredFrame frame = watch.seePicture(with_dirt ? dirty(flight.picture()) : flight.picture());
+    int i = -1;
+    for (const cv::Mat& picture : pictures()) {
+        const RegisteredFrame frame = watch.seePicture(with_dirt ? dirty(picture) : picture);
+        if (++i == 0) continue;
         EXPECT_EQ(frame.registration.state, RegistrationState::registered);
         result.error +=
-            test::gridError(frame.registration.current_from_previous.matrix, step, kSize) / (kDirtyFrames - 1);
+            test::gridError(frame.registration.current_from_previous.matrix, step(), kSize) / (kDirtyFrames - 1);
         if (i < kAfter) continue;
         for (const Corner& corner : frame.corners) {
             const cv::Point2f shift = corner.current - corner.previous;
@@ -100,11 +116,9 @@ TEST(StuckCorners, NeedGroundThatMoves) {
 /// What the camera follows keeps its place only roughly.
 TEST(StuckCorners, AVehicleThatTheCameraFollowsIsNone) {
     Watch watch(with("true"));
-    Flight flight;
     int on_vehicle = 0;
     for (int i = 0; i < kDirtyFrames; ++i) {
-        flight.move(test::cameraMotion(kSize, 1.6, 0.7, 0, 1));
-        cv::Mat picture = flight.picture().clone();
+        cv::Mat picture = pictures().at(std::size_t(i)).clone();
         const cv::Point at(150 + static_cast<int>(std::lround(2.5 * std::sin(0.35 * i))), 110);
         cv::rectangle(picture, cv::Rect(at, cv::Size(22, 11)), cv::Scalar(235), -1);
         cv::rectangle(picture, cv::Rect(at + cv::Point(6, 2), cv::Size(7, 7)), cv::Scalar(60), -1);

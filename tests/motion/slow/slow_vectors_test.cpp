@@ -176,10 +176,15 @@ class SlowMotion {
             if (fast[corner.id].baseline > 0) add(fast[corner.id]);
             if (slow[corner.id].baseline > fast[corner.id].baseline) add(slow[corner.id]);
         }
-        const auto sigma = [&](int baseline) {
+        const auto sigmaOf = [&](int baseline) {
             if (displacements.empty() || baseline == 0) return 0.0;
             if (speeds[baseline].size() >= 60) return upperMedian(speeds[baseline]) / 1.17741;
             return upperMedian(displacements) / 1.17741 / baseline;
+        };
+        std::map<int, double> sigmas;  // each is asked for by every corner
+        const auto sigma = [&](int baseline) {
+            if (sigmas.count(baseline) == 0) sigmas[baseline] = sigmaOf(baseline);
+            return sigmas[baseline];
         };
         motion.background_speed_sigma = sigma(std::max(options_.baseline, options_.min_age));
         // Of the whole picture's noise, what the corners in the cells around show.
