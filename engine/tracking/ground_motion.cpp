@@ -10,6 +10,9 @@
 namespace eyrie {
 namespace {
 
+/// By how much the horizon may be off, as a share of its distance from the middle of the picture.
+constexpr double kHorizonError = 0.1;
+
 bool isFinite(const cv::Matx33d& matrix) {
     for (const double value : matrix.val) {
         if (!std::isfinite(value)) return false;
@@ -83,12 +86,26 @@ std::optional<MovingState> GroundMotion::carried(MovingState state, FrameIndex f
         if (!map) return std::nullopt;
         const bool frozen = stepInto(std::max(frame, frame + direction))->frozen;
         // Forward: move, then map. Backward undoes that in the opposite order.
-        if (direction > 0 && !frozen) state.box.centre += state.velocity;
+        if (direction > 0 && !frozen) state.box = movedBy(state.box, state.velocity);
         state = mapped(state, *map);
-        if (direction < 0 && !frozen) state.box.centre -= state.velocity;
+        if (direction < 0 && !frozen) state.box = movedBy(state.box, -state.velocity);
         if (!isFinite(state)) return std::nullopt;
     }
     return state;
+}
+
+bool GroundMotion::aboveHorizon(const OrientedBox& box) const {
+    const auto corners = box.corners();
+    return std::all_of(corners.begin(), corners.end(), [this](const cv::Point2d& corner) {
+        const cv::Point2d off = corner - slope_.centre();
+        return 1 + slope_.right_per_px * off.x + slope_.down_per_px * off.y < -kHorizonError;
+    });
+}
+
+OrientedBox GroundMotion::movedBy(OrientedBox box, cv::Point2d way) const {
+    const cv::Point2d place = box.centre + way;
+    const double larger = enlargement(box.centre, place);
+    return {place, box.length * larger, box.width * larger, box.heading};
 }
 
 cv::Size GroundMotion::imageSize(FrameIndex frame) const {

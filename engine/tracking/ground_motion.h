@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/geometry/oriented_box.h"
+#include "core/values/scale_slope.h"
 #include "tracking/finishing/track_finishing.h"
 
 namespace eyrie {
@@ -29,6 +30,14 @@ class GroundMotion {
     /// Adds a frame; they come in ascending order.
     void add(const FrameMotionSummary& summary);
 
+    /// What moves over ground that is seen at an angle grows as it comes nearer; flat until told otherwise.
+    void seenAt(const ScaleSlope& slope) { slope_ = slope; }
+    /// How much larger than at one place of a picture the same thing is at another; 1 where the view is flat.
+    double enlargement(cv::Point2d from, cv::Point2d to) const { return slope_.factorAt(to) / slope_.factorAt(from); }
+
+    /// Whether a whole box lies above the horizon, where the view has one: what is seen there is no ground.
+    bool aboveHorizon(const OrientedBox& box) const;
+
     /// The map into an adjacent frame, null when the frame is unknown or its registration degenerate or, unless
     /// `guesses` are allowed, not reliable.
     const cv::Matx33d* step(FrameIndex from, FrameIndex to, bool guesses) const;
@@ -51,6 +60,8 @@ class GroundMotion {
         cv::Size image_size;
     };
     const Step* stepInto(FrameIndex frame) const;
+    OrientedBox movedBy(OrientedBox box, cv::Point2d way) const;
+    ScaleSlope slope_;
     std::deque<Step> steps_;  ///< ascending frames; an hour of them, so without the slack of a vector
 };
 

@@ -35,6 +35,12 @@ TEST(ScaleOutcomes, ScoreIsOfWhatLooksLikeVehiclesAndLittleElse) {
     EXPECT_EQ(both.cars, 7);
 }
 
+TEST(ScaleOutcomes, EightLooksAndACarAreTraffic) {
+    EXPECT_TRUE((ScaleOutcome{100, 8, 1, 9, 1}).showsTraffic());
+    EXPECT_FALSE((ScaleOutcome{100, 7, 1, 9, 1}).showsTraffic());
+    EXPECT_FALSE((ScaleOutcome{100, 8, 1, 9, 0}).showsTraffic());
+}
+
 TEST(ScaleOutcomes, ACarIsNeitherShorterNorWiderThanCarsAre) {
     EXPECT_TRUE(isCarSized(3.61, 1.51));
     EXPECT_TRUE(isCarSized(6.59, 3.79));

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "chain/scale/slope_estimation.h"
+#include "chain/scale/view_estimation.h"
 #include "support/moving_scene.h"
 #include "support/shared_data.h"
 
@@ -104,6 +105,74 @@ TEST(ScaleSlopeFit, FewVotesOrVotesInOnePlaceTellNoSlope) {
     std::vector<ScaleVote> together = votesUnder(0, 0.002, 200);
     for (ScaleVote& vote : together) vote.place = {500, 300 + (vote.place.y - 300) / 100};
     EXPECT_TRUE(fitSlope(together, kImage, kGsd).isFlat());
+}
+
+/// Votes of one vehicle that drives from the far end of a view towards the camera.
+std::vector<ScaleVote> votesOnTheWay(double horizon_y, int count, double spread = 0.12) {
+    std::mt19937 random(3);
+    std::normal_distribution<double> off(0, spread);
+    const double middle_y = (kImage.height - 1) / 2.0;
+    std::vector<ScaleVote> votes;
+    for (int i = 0; i < count; ++i) {
+        const cv::Point2d place(480 + i, 230 + 150.0 * i / (count - 1));
+        const double farther = (middle_y - horizon_y) / (place.y - horizon_y);
+        votes.push_back({place, kGsd * farther * std::exp(off(random)), 8});
+    }
+    return votes;
+}
+
+TEST(ViewFit, OneVehicleThatComesNearerTellsScaleAndHorizonTogether) {
+    for (const double horizon_y : {180.0, 100.0}) {
+        const auto found = fitView(votesOnTheWay(horizon_y, 30), kImage);
+        ASSERT_FALSE(found.empty()) << horizon_y;
+        const auto& [gsd, slope] = found.front();
+        EXPECT_NEAR(gsd, kGsd, 0.15 * kGsd);
+        EXPECT_EQ(slope.right_per_px, 0);
+        const double told = slope.centre_y - 1 / slope.down_per_px;
+        EXPECT_NEAR(told, horizon_y, 0.35 * (300 - horizon_y)) << "in the picture, where fitSlope() does not look";
+    }
+}
+
+TEST(ViewFit, PartsOfTheVehicleDoNotMislead) {
+    std::vector<ScaleVote> votes = votesOnTheWay(180, 30);
+    for (std::size_t i = 0; i < votes.size(); i += 4) votes[i].gsd_m_per_px *= 2.5;
+    const auto found = fitView(votes, kImage);
+    ASSERT_FALSE(found.empty());
+    EXPECT_NEAR(found.front().gsd_m_per_px, kGsd, 0.2 * kGsd);
+}
+
+TEST(ViewFit, OthersThatFitAboutAsWellAreTold) {
+    const auto few = fitView(votesOnTheWay(180, 20), kImage);
+    ASSERT_GE(few.size(), 2U);
+    EXPECT_NE(few[0].slope, few[1].slope);
+    EXPECT_EQ(fitView(votesOnTheWay(180, 400, 0.05), kImage).size(), 1U) << "where many agree";
+}
+
+TEST(ViewFit, NothingIsToldByFewVotesByOneScaleForAllOrByVotesThatDisagree) {
+    EXPECT_FALSE(fitView(votesOnTheWay(180, 16), kImage).empty());
+    EXPECT_TRUE(fitView(votesOnTheWay(180, 15), kImage).empty());
+    for (unsigned seed = 1; seed <= 20; ++seed)
+        EXPECT_TRUE(fitView(votesUnder(0, 0, 60, 0.12, seed), kImage).empty()) << seed;
+    std::vector<ScaleVote> scattered = votesOnTheWay(180, 30);
+    for (std::size_t i = 0; i < scattered.size(); ++i)
+        scattered[i].gsd_m_per_px *= i % 2 == 0 ? 1 : 3.0 + double(i % 7);
+    EXPECT_TRUE(fitView(scattered, kImage).empty());
+}
+
+TEST(ViewEstimation, ACarThatGrowsOnItsWayShowsTheHorizonOfALowFlight) {
+    EYRIE_NEED_SHARED_DATA("uav123_car16");
+    SourceOptions low;
+    low.frame_rate_hz = 10;
+    const auto source = openSource(test::sharedData("uav123_car16/frames"), low);
+    const auto view = estimateView(*source, {36, 78}, ChainOptions{}, 10, {});
+    ASSERT_TRUE(view);
+    // The horizon lies at y = 108 when the car is at y = 175, where it is 60 px long.
+    EXPECT_NEAR(view->slope.centre_y - 1 / view->slope.down_per_px, 108, 15);
+    EXPECT_NEAR(view->middle.gsd_m_per_px, 0.075, 0.02);
+    EXPECT_GE(view->middle.vehicles, 1);
+    std::stop_source stopped;
+    stopped.request_stop();
+    EXPECT_FALSE(estimateView(*source, {36, 78}, ChainOptions{}, 10, stopped.get_token()));
 }
 
 TEST(SlopeEstimation, ARealObliqueViewHasASlopeWhichIsOnlyLookedForWhereAsked) {

@@ -75,6 +75,7 @@ RunRecord RunRecorder::finish(const RunSummary& summary) {
     RunStore store(project);
     // Nothing of the frames is held while the run goes on: an hour of them would not fit beside the chain.
     GroundMotion ground;
+    ground.seenAt(scale_.slope);
     store.visitRegistrations(writer_.runId(), [&](const Registration& registration) {
         ground.add({registration.current_from_previous.to_frame, registration, image_size_});
     });

@@ -4,66 +4,23 @@
 #include <atomic>
 #include <cmath>
 #include <future>
-#include <map>
 #include <mutex>
 #include <opencv2/core/utility.hpp>
 #include <string>
 #include <vector>
 
-#include "chain/chain.h"
 #include "chain/scale/look_progress.h"
 #include "chain/scale/scale_outcomes.h"
+#include "chain/scale/scale_trial.h"
 #include "chain/scale/slope_estimation.h"
+#include "chain/scale/view_estimation.h"
 #include "core/error.h"
-#include "core/robust_statistics.h"
 #include "detection/detector_factory.h"
 
 namespace eyrie {
 namespace {
 
-constexpr int kSettledFrames = 14;  ///< until tracks have formed
-constexpr std::size_t kFewestStates = 8;
 constexpr int kPlenty = 10;  ///< vehicles; where fewer drive, later frames are looked at, too
-
-ScaleOutcome outcomeUnder(const std::vector<Frame>& frames, const ChainOptions& options, const SceneScale& scale,
-                          const std::stop_token& stop, const std::function<void()>& tell) {
-    struct Sizes {
-        std::vector<double> lengths, widths;
-    };
-    ScaleOutcome outcome;
-    Chain chain(options, scale);
-    std::map<TrackId, Sizes> sizes;
-    for (std::size_t i = 0; i < frames.size() && !stop.stop_requested(); ++i) {
-        const FrameResult result = chain.next(frames[i]);
-        tell();
-        for (const Detection& detection : result.detections) {
-            ++outcome.detections;
-            if (!detection.complete) continue;
-            ++outcome.looks;
-            outcome.decision += detection.score;
-        }
-        if (i < kSettledFrames) continue;
-        for (const auto& track : result.tracks) {
-            if (track.status != TrackStatus::confirmed) continue;
-            sizes[track.id].lengths.push_back(scale.metres(track.box.length));
-            sizes[track.id].widths.push_back(scale.metres(track.box.width));
-        }
-    }
-    for (auto& [id, seen] : sizes) {
-        if (seen.lengths.size() < kFewestStates) continue;
-        ++outcome.tracks;
-        outcome.cars += isCarSized(medianOf(seen.lengths), medianOf(seen.widths));
-    }
-    return outcome;
-}
-
-/// The chain that looks: whatever detector the run is to use, here the classifier has to say what is a vehicle.
-ChainOptions lookingOptions(const ChainOptions& options) {
-    ChainOptions looking = options;
-    looking.detection = DetectionOptions{};
-    looking.detection.sliding_window.model = options.detection.sliding_window.model;
-    return looking;
-}
 
 /// Why nobody can say what is a vehicle; empty where the classifier is there.
 std::string missingClassifier(const ChainOptions& options, const SceneScale& scale) {
@@ -96,13 +53,15 @@ std::vector<ScaleOutcome> outcomesOf(FrameSource& source, FrameIndex first, Fram
         const std::scoped_lock lock(telling);
         progress.step();
     };
+    const auto count = static_cast<int>(frames.size());
+    const auto frame_of = [&](int i) { return frames[static_cast<std::size_t>(i)]; };
     std::vector<ScaleOutcome> outcomes(kScaleAssumptions);
     std::atomic<int> next{0};
     const auto look = [&] {
         for (int i = next++; i < kScaleAssumptions; i = next++) {
             SceneScale assumed = scale;
             assumed.gsd_m_per_px = assumedGsd(i);
-            outcomes[static_cast<std::size_t>(i)] = outcomeUnder(frames, looking, assumed, stop, tell);
+            outcomes[static_cast<std::size_t>(i)] = outcomeUnder(count, frame_of, looking, assumed, stop, tell);
         }
     };
     // One chain leaves processors idle. Threads of their own: what waits in a pool for a part of one chain would begin
@@ -162,7 +121,15 @@ ChosenScale chooseScale(FrameSource& source, FrameRange range, const ChainOption
             chosen.estimate = estimateMiddle(source, range, options, scale.frame_rate_hz, stop, told);
         if (chosen.estimate) scale.gsd_m_per_px = chosen.estimate->gsd_m_per_px;
     }
-    scale.slope = slopeFor(source, range, options, scale, stop, told);
+    if (!scale.gsd_known && !chosen.estimate && chosen.why_not.empty() && options.view.oblique) {
+        if (const auto view = estimateView(source, range, options, scale.frame_rate_hz, stop, told)) {
+            chosen.estimate = view->middle;
+            scale.gsd_m_per_px = view->middle.gsd_m_per_px;
+            scale.slope = view->slope;
+        }
+    } else {
+        scale.slope = slopeFor(source, range, options, scale, stop, told);
+    }
     chosen.basis = basisOfChoice(scale, stated, chosen.estimate);
     return chosen;
 }

@@ -29,6 +29,10 @@ double ScaleOutcome::score() const {
     return decision * alike * alike * car_sized * car_sized;
 }
 
+bool ScaleOutcome::showsTraffic() const {
+    return looks >= kFewestLooks && cars >= 1;
+}
+
 ScaleOutcome operator+(const ScaleOutcome& a, const ScaleOutcome& b) {
     return {a.detections + b.detections, a.looks + b.looks, a.decision + b.decision, a.tracks + b.tracks,
             a.cars + b.cars};
@@ -45,7 +49,7 @@ std::optional<ScaleEstimate> estimateOfScale(const std::vector<ScaleOutcome>& ou
         if (score > outcomes[static_cast<std::size_t>(best)].score()) best = i;
     }
     const ScaleOutcome& peak = outcomes[static_cast<std::size_t>(best)];
-    if (peak.looks < kFewestLooks || peak.cars < 1) return std::nullopt;
+    if (!peak.showsTraffic()) return std::nullopt;
     double weights = 0;
     double sum = 0;
     double squares = 0;

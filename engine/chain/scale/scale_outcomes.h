@@ -29,6 +29,8 @@ struct ScaleOutcome {
     /// Much that looks like vehicles, and little that does not: where the assumption is too fine cars do not fit the
     /// window, where it is too coarse they fall into pieces, and neither relief nor glare looks like a car at any.
     double score() const;
+    /// Whether enough looks like vehicles, and one of them is as large as a car: less is chance.
+    bool showsTraffic() const;
 };
 /// Of both together.
 ScaleOutcome operator+(const ScaleOutcome& a, const ScaleOutcome& b);

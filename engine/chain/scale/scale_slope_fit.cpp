@@ -21,6 +21,19 @@ constexpr int kMostOff = 8;
 constexpr double kSaved = 5;          ///< cost that a slope must save
 constexpr double kWorthwhile = 0.15;  ///< growth from the middle of the picture to an edge
 
+// A view of which nothing is known.
+constexpr double kLeastGrowth = 0.3;       ///< from the middle of the picture to its lower edge …
+constexpr double kMostGrowth = 4;          ///< … up to a horizon that lies 3/8 of the picture below its upper edge
+constexpr double kGrowthFactor = 1.08;     ///< from one growth to the next
+constexpr double kFinestMiddle = 0.01;     ///< m/px …
+constexpr double kCoarsestMiddle = 1;      ///< … between which the scale in the middle lies
+constexpr std::size_t kFewestOfView = 16;  ///< votes
+constexpr double kAgreeing = 0.6;          ///< share of the votes that must not be far off
+constexpr double kSavedByView = 1;         ///< cost that the slope must save; the chain has to confirm it
+constexpr double kAboutAsGood = 3;         ///< cost by which others may be worse than the best one …
+constexpr double kApart = 1.26;            ///< … of growths that are as many times larger or smaller
+constexpr double kTailBegins = 0.9;        ///< growth from which larger ones are hardly less likely
+
 double squared(double value) {
     return value * value;
 }
@@ -42,7 +55,60 @@ double costOf(double right, double down, const std::vector<ScaleVote>& votes, cv
     return best + squared(right / kLevelHorizon) / 2 + squared(down / kTilted) / 2;
 }
 
+/// What a growth of a view costs before any vote: as that of fitSlope(), but steep views are not ruled out.
+double tiltCost(double down) {
+    const double usual = std::min(down, kTailBegins);
+    return squared(usual / kTilted) / 2 + squared(kTailBegins / kTilted) * std::log(std::max(1.0, down / kTailBegins));
+}
+
+/// The best scale in the middle for a growth downwards, what it costs, and how many votes are not far off.
+struct MiddleFit {
+    double gsd_m_per_px = 0;
+    double cost = 1e300;
+    std::size_t agreeing = 0;
+};
+
+MiddleFit bestMiddle(double down, const std::vector<ScaleVote>& votes, cv::Size image) {
+    const ScaleSlope slope = ScaleSlope::ofPicture(image, 0, down / (image.height / 2.0));
+    std::vector<double> middles;  // logarithm of the scale that each vote asks for in the middle
+    for (const ScaleVote& vote : votes) middles.push_back(std::log(vote.gsd_m_per_px * slope.factorAt(vote.place)));
+    MiddleFit best;
+    for (double middle = std::log(kFinestMiddle); middle <= std::log(kCoarsestMiddle); middle += kGrowthStep) {
+        double cost = 0;
+        std::size_t agreeing = 0;
+        for (const double of_vote : middles) {
+            const double off = squared((of_vote - middle) / kVoteSpread) / 2;
+            cost += std::min(off, kFarOff);
+            agreeing += off < kFarOff;
+        }
+        cost = kIndependent * cost + tiltCost(down);
+        if (cost < best.cost) best = {std::exp(middle), cost, agreeing};
+    }
+    return best;
+}
+
 }  // namespace
+
+std::vector<ViewFit> fitView(const std::vector<ScaleVote>& votes, cv::Size image) {
+    if (votes.size() < kFewestOfView) return {};
+    MiddleFit best;
+    double growth = 0;
+    for (double down = kLeastGrowth; down <= kMostGrowth; down *= kGrowthFactor) {
+        const MiddleFit fit = bestMiddle(down, votes, image);
+        if (fit.cost >= best.cost) continue;
+        best = fit;
+        growth = down;
+    }
+    const double flat = bestMiddle(0, votes, image).cost;
+    std::vector<ViewFit> views;
+    for (const double down : {growth, growth / kApart, growth * kApart}) {
+        const MiddleFit fit = bestMiddle(down, votes, image);
+        const bool agree = static_cast<double>(fit.agreeing) >= kAgreeing * static_cast<double>(votes.size());
+        if (agree && flat - fit.cost >= kSavedByView && fit.cost - best.cost <= kAboutAsGood)
+            views.push_back({fit.gsd_m_per_px, ScaleSlope::ofPicture(image, 0, down / (image.height / 2.0))});
+    }
+    return views;
+}
 
 ScaleSlope fitSlope(const std::vector<ScaleVote>& votes, cv::Size image, double gsd_m_per_px) {
     if (votes.size() < kFewestVotes) return {};

@@ -15,4 +15,15 @@ namespace eyrie {
 /// Flat unless a slope explains the votes far better than none, and matters.
 ScaleSlope fitSlope(const std::vector<ScaleVote>& votes, cv::Size image, double gsd_m_per_px);
 
+/// A scale that changes downwards over the picture, whose horizon is level.
+struct ViewFit {
+    double gsd_m_per_px = 0;  ///< in the picture's middle
+    ScaleSlope slope;         ///< never flat
+};
+
+/// Scale and slope together, where nothing is known of either: a view so oblique that no scale fits the whole of it.
+/// The horizon may lie in the picture. Nothing unless most votes agree on both, and better than on one scale for all;
+/// else what fits best, then what fits about as well, none of them sure before the chain finds traffic with it.
+std::vector<ViewFit> fitView(const std::vector<ScaleVote>& votes, cv::Size image);
+
 }  // namespace eyrie

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <opencv2/core/utility.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "chain/chain.h"
 #include "chain/scale/look_progress.h"
+#include "chain/scale/moving_votes.h"
 #include "chain/scale/scale_slope_fit.h"
 #include "core/error.h"
 
@@ -20,26 +20,6 @@ constexpr int kStretches = 3;                ///< at most: start, middle and end
 constexpr std::array kLooks{17, 25, 33};     ///< frames of a stretch in which is looked; vehicles moved on in between
 constexpr double kWidestRange = 3.5;         ///< factor by which the scale may be finer or coarser anywhere
 constexpr std::size_t kPlentyOfVotes = 100;  ///< with which no other stretch is looked at
-
-/// What votes in one frame.
-std::vector<ScaleVote> votesIn(const Frame& frame, const FrameMotion& motion, const MotionClustering& clustering,
-                               const ScaleLooker& looker, const ScaleRange& scales) {
-    const std::vector<MotionCluster> clusters = clustering.cluster(motion);
-    std::vector<std::vector<ScaleVote>> votes(clusters.size());
-    // Written by index, so that the result does not depend on the number of threads.
-    cv::parallel_for_(cv::Range(0, static_cast<int>(clusters.size())), [&](const cv::Range& part) {
-        for (int i = part.start; i < part.end; ++i) {
-            const MotionCluster& cluster = clusters[static_cast<std::size_t>(i)];
-            std::vector<cv::Point2f> places;
-            for (const int member : cluster.members)
-                places.push_back(motion.motion_vectors[static_cast<std::size_t>(member)].position);
-            votes[static_cast<std::size_t>(i)] = looker.votesOn(frame.gray, cluster.box, places, scales);
-        }
-    });
-    std::vector<ScaleVote> given;
-    for (const auto& of_cluster : votes) given.insert(given.end(), of_cluster.begin(), of_cluster.end());
-    return given;
-}
 
 /// What votes from a frame on.
 std::vector<ScaleVote> votesFrom(FrameSource& source, FrameIndex first, FrameIndex last, const ChainOptions& options,

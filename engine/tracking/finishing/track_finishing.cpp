@@ -351,7 +351,9 @@ std::vector<TimedState> finishTracks(const std::vector<TimedState>& states,
     const StatesOfRun all = [&](const StateVisitor& visitor) {
         for (const auto& [frame, state] : states) visitor(frame, state);
     };
-    const FinishedTracks finished = finishRun(all, GroundMotion(motion), options, scale, found);
+    GroundMotion ground(motion);
+    ground.seenAt(scale.slope);
+    const FinishedTracks finished = finishRun(all, ground, options, scale, found);
     if (dropped != nullptr) {
         finished.visitDropped(
             all, [&](FrameIndex frame, const DroppedState& state) { dropped->emplace_back(frame, state); });

@@ -37,8 +37,8 @@ std::vector<TrackPath> joinFragments(std::vector<TrackPath> paths, const GroundM
 /// longer than bumper to bumper traffic would. The longer track's id stays.
 void joinParts(std::vector<TrackPath>& paths, const SceneScale& scale);
 
-/// Replaces lengths and widths by their weighted median over a window, on the ground: enlargement by the camera is
-/// taken into account, detections count most.
+/// Replaces lengths and widths by their weighted median over a window, on the ground: enlargement by the camera, and by
+/// the vehicle's own way towards it, is taken into account, detections count most.
 void steadySize(TrackPath& path, const GroundMotion& ground, int half_window);
 
 /// Replaces centres, velocities and headings by a local polynomial fit on the ground over `half_window` frames to
@@ -68,7 +68,7 @@ void dropHardlyDetected(std::vector<TrackPath>& paths, double min_share, const S
 /// plane of the registration, or never faster than that in any direction, and the classifier never took them for a
 /// vehicle. Nothing is dropped where the camera hardly moves. In oblique views also what moves just as a standing thing
 /// would that the camera passes: of up to `standing_height`, or `roof_height` where the classifier never took it for
-/// one.
+/// one; and what is seen above the horizon.
 void dropStanding(std::vector<TrackPath>& paths, const GroundMotion& ground, const VehicleLooks& looks,
                   const FinishingOptions& options, DropList& dropped);
 

@@ -143,10 +143,17 @@ void steadySize(TrackPath& path, const GroundMotion& ground, int half_window) {
         const auto& [frame, state] = path.states[i];
         weights.push_back(weightOf(state) * (ground.cutByBorder(state.box, frame) ? 0.05 : 1));
         if (i + 1 == path.states.size()) break;
+        const auto& [next_frame, next] = path.states[i + 1];
         double scale = 1;
-        for (FrameIndex f = frame; f < path.states[i + 1].first; ++f) {
-            if (const cv::Matx33d* step = ground.step(f, f + 1, false)) scale *= localScale(*step, state.box.centre);
+        Homography over;
+        for (FrameIndex f = frame; f < next_frame; ++f) {
+            const cv::Matx33d* step = ground.step(f, f + 1, false);
+            if (!step) continue;
+            scale *= localScale(*step, state.box.centre);
+            over.matrix = *step * over.matrix;
         }
+        // What is left is its own way, over ground that may be seen at an angle.
+        scale *= ground.enlargement(over.apply(state.box.centre), next.box.centre);
         enlargement.push_back(enlargement.back() * (scale > 0 && std::isfinite(scale) ? scale : 1));
     }
     std::vector<OrientedBox> steady;

@@ -37,6 +37,14 @@ bool movesAsPassed(const TrackPath& path, const GroundMotion& ground, double hig
            implied->rest < kMostRest * implied->moved && implied->height > kLeastHeight && implied->height < highest;
 }
 
+/// Whether it is mostly seen above the horizon: what rises higher than the camera is no vehicle on the ground.
+bool risesAboveHorizon(const TrackPath& path, const GroundMotion& ground) {
+    const auto above = std::count_if(path.states.begin(), path.states.end(), [&](const TimedPathState& state) {
+        return ground.aboveHorizon(state.second.box);
+    });
+    return 2 * above > static_cast<std::ptrdiff_t>(path.states.size());
+}
+
 }  // namespace
 
 void dropStanding(std::vector<TrackPath>& paths, const GroundMotion& ground, const VehicleLooks& looks,
@@ -47,7 +55,8 @@ void dropStanding(std::vector<TrackPath>& paths, const GroundMotion& ground, con
         const double highest =
             unlike ? std::max(options.standing_height, options.roof_height) : options.standing_height;
         const bool stands = unlike && movesLikeStanding(path, ground, options);
-        if (!stands && !movesAsPassed(path, ground, highest)) return false;
+        const bool rises = options.standing_height > 0 && risesAboveHorizon(path, ground);
+        if (!stands && !rises && !movesAsPassed(path, ground, highest)) return false;
         drop(path, TrackDrop::could_stand, dropped);
         return true;
     });

@@ -146,6 +146,44 @@ TEST(GroundMotion, ABoxIsCutWhereAHundredthOfItIsOutside) {
     EXPECT_FALSE(ground.cutByBorder({{900, 100}, 20, 10, 0}, 1)) << "nothing is known of the picture";
 }
 
+/// A camera that stands still and sees the horizon at y = 108.
+GroundMotion towardsTheHorizon(int frames) {
+    std::vector<FrameMotionSummary> motion;
+    for (int frame = 0; frame < frames; ++frame) motion.push_back(test::summaryOfFrame(frame));
+    GroundMotion ground(motion);
+    ground.seenAt({0, 0.0125, 320, 188});
+    return ground;
+}
+
+TEST(GroundMotion, WhatComesNearerGrowsAndShrinksOnItsWayBack) {
+    const GroundMotion ground = towardsTheHorizon(30);
+    // 40 px below the horizon at first, 100 px after 20 frames.
+    const MovingState far{{{300, 148}, 20, 10, 0.3}, {1, 3}};
+    const auto near = ground.carried(far, 0, 20, false);
+    ASSERT_TRUE(near);
+    EXPECT_NEAR(near->box.centre.y, 208, 1e-9);
+    EXPECT_NEAR(near->box.length, 50, 1e-9);
+    EXPECT_NEAR(near->box.width, 25, 1e-9);
+    const auto back = ground.carried(*near, 20, 0, false);
+    ASSERT_TRUE(back);
+    EXPECT_NEAR(back->box.length, 20, 1e-9);
+    EXPECT_NEAR(back->box.centre.x, 300, 1e-9);
+    // What stands does not grow, and nothing does in a flat view.
+    EXPECT_EQ(ground.carried({far.box, {0, 0}}, 0, 20, false)->box.length, 20);
+    GroundMotion flat = ground;
+    flat.seenAt({});
+    EXPECT_EQ(flat.carried(far, 0, 20, false)->box.length, 20);
+}
+
+TEST(GroundMotion, AboveTheHorizonIsNoGround) {
+    const GroundMotion ground = towardsTheHorizon(1);
+    // A tenth of the 80 px from the horizon to the place that the scale counts from is left for its error.
+    EXPECT_TRUE(ground.aboveHorizon({{300, 94.9}, 20, 10, 0}));
+    EXPECT_FALSE(ground.aboveHorizon({{300, 95.1}, 20, 10, 0})) << "its lower edge";
+    EXPECT_FALSE(ground.aboveHorizon({{300, 200}, 20, 10, 0}));
+    EXPECT_FALSE(GroundMotion().aboveHorizon({{300, 1}, 2, 1, 0})) << "seen from above";
+}
+
 TEST(TrackOccupancy, IsAskedByFrameAndLetsBoxesTouch) {
     TrackPath path{1, {}};
     for (const int frame : {30, 31, 32, 33, 70}) {
@@ -296,6 +334,23 @@ TEST(SteadySize, BoxesThatTheBorderCutHardlyCount) {
     }
     steadySize(path, GroundMotion(motion), 40);
     for (const auto& [frame, state] : path.states) EXPECT_NEAR(state.box.length, 20, 1e-6) << frame;
+}
+
+TEST(SteadySize, FollowsAVehicleThatComesNearer) {
+    const GroundMotion ground = towardsTheHorizon(30);
+    TrackPath path{1, {}};
+    for (int frame = 0; frame < 30; ++frame) {
+        TrackState state;
+        const double y = 138 + 3 * frame;
+        // Every fifth box is half a vehicle.
+        state.box = {{300, y}, 0.5 * (y - 108) * (frame % 5 == 2 ? 0.5 : 1), 0.2 * (y - 108), kPi / 2};
+        path.states.emplace_back(frame, PathState(state));
+    }
+    steadySize(path, ground, 40);
+    for (const auto& [frame, state] : path.states) {
+        EXPECT_NEAR(state.box.length, 0.5 * (30 + 3 * frame), 1e-3) << frame;
+        EXPECT_NEAR(state.box.width, 0.2 * (30 + 3 * frame), 1e-3) << frame;
+    }
 }
 
 TEST(ExtendToRest, FollowsTheLeastAbsoluteDeviationsOfAnEvenAcceleration) {

@@ -38,7 +38,7 @@ class Standing : public testing::Test {
             states.emplace_back(frame, state);
         }
         drops_.clear();
-        return !finishTracks(states, motion_, options, kScale, {{}, classified_at}, &drops_).empty();
+        return !finishTracks(states, motion_, options, scale_, {{}, classified_at}, &drops_).empty();
     }
     cv::Point2d place(cv::Point2d own, FrameIndex frame) const {
         return {300 + (flow_px_ + own.x) * frame, 300 + own.y * frame};
@@ -48,6 +48,7 @@ class Standing : public testing::Test {
     static constexpr int kFrames = 60;
     std::vector<FrameMotionSummary> motion_;
     std::vector<TimedDrop> drops_;
+    SceneScale scale_ = kScale;
     double flow_px_;
 };
 
@@ -98,6 +99,24 @@ TEST_F(Standing, HeightsOfZeroDropNothing) {
 
 TEST_F(UnderHoveringCamera, NothingStandingMoves) {
     EXPECT_TRUE(stays({0.5, 0}, none));
+}
+
+TEST_F(UnderHoveringCamera, WhatRisesAboveTheHorizonIsDroppedWhateverItLooksLike) {
+    const cv::Point2d own(0, 1);  // from y = 300 to 359
+    const auto like_a_vehicle = [&](FrameIndex frame) {
+        return std::vector<ClassifiedBox>{{{place(own, frame), 22, 11, 0}, true}};
+    };
+    // A horizon at y = 350, surely at 340: 35 of 60 boxes lie above that, and 25 when it is 10 px higher.
+    scale_.slope = {0, 0.01, 500, 450};
+    EXPECT_FALSE(stays(own, like_a_vehicle));
+    ASSERT_FALSE(drops_.empty());
+    EXPECT_EQ(drops_.front().second.why, TrackDrop::could_stand);
+    scale_.slope.centre_y = 440;
+    EXPECT_TRUE(stays(own, like_a_vehicle));
+    FinishingOptions options;
+    options.standing_height = 0;
+    scale_.slope.centre_y = 450;
+    EXPECT_TRUE(stays(own, like_a_vehicle, options));
 }
 
 }  // namespace

@@ -1,0 +1,57 @@
+#include "chain/scale/scale_trial.h"
+
+#include <map>
+#include <vector>
+
+#include "chain/chain.h"
+#include "core/robust_statistics.h"
+
+namespace eyrie {
+namespace {
+
+constexpr int kSettledFrames = 14;  ///< until tracks have formed
+constexpr std::size_t kFewestStates = 8;
+
+}  // namespace
+
+ScaleOutcome outcomeUnder(int count, const FrameOfLook& frame_of, const ChainOptions& options, const SceneScale& scale,
+                          const std::stop_token& stop, const std::function<void()>& tell) {
+    struct Sizes {
+        std::vector<double> lengths, widths;
+    };
+    ScaleOutcome outcome;
+    Chain chain(options, scale);
+    std::map<TrackId, Sizes> sizes;
+    for (int i = 0; i < count && !stop.stop_requested(); ++i) {
+        const FrameResult result = chain.next(frame_of(i));
+        tell();
+        for (const Detection& detection : result.detections) {
+            ++outcome.detections;
+            if (!detection.complete) continue;
+            ++outcome.looks;
+            outcome.decision += detection.score;
+        }
+        if (i < kSettledFrames) continue;
+        for (const auto& track : result.tracks) {
+            if (track.status != TrackStatus::confirmed) continue;
+            const SceneScale here = scale.at(track.box.centre);
+            sizes[track.id].lengths.push_back(here.metres(track.box.length));
+            sizes[track.id].widths.push_back(here.metres(track.box.width));
+        }
+    }
+    for (auto& [id, seen] : sizes) {
+        if (seen.lengths.size() < kFewestStates) continue;
+        ++outcome.tracks;
+        outcome.cars += isCarSized(medianOf(seen.lengths), medianOf(seen.widths));
+    }
+    return outcome;
+}
+
+ChainOptions lookingOptions(const ChainOptions& options) {
+    ChainOptions looking = options;
+    looking.detection = DetectionOptions{};
+    looking.detection.sliding_window.model = options.detection.sliding_window.model;
+    return looking;
+}
+
+}  // namespace eyrie

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <stop_token>
+
+#include "chain/scale/scale_estimation.h"
+
+namespace eyrie {
+
+/// A view that was read off what moves in it.
+struct EstimatedView {
+    ScaleEstimate middle;
+    ScaleSlope slope;
+};
+
+/// Scale and slope of a view in which no scale shows traffic, for a vehicle that comes nearer changes its size all the
+/// time. What moves is looked at every other frame of the beginning, the middle and the end, and what fits most of it
+/// is tried there. Nothing where the chain finds no traffic under that either. Throws Error(input) where no classifier
+/// can be loaded.
+std::optional<EstimatedView> estimateView(FrameSource& source, FrameRange range, const ChainOptions& options,
+                                          double frame_rate_hz, const std::stop_token& stop,
+                                          const ScaleProgress& told = {});
+
+}  // namespace eyrie
