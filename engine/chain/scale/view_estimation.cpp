@@ -18,7 +18,6 @@ namespace {
 constexpr int kUntilMoving = 12;            ///< frames of a stretch until what moves has vectors
 constexpr double kLinkedAt = 0.1;           ///< m/px at which they are linked: no car falls to pieces …
 constexpr ScaleRange kAnyScale{0.02, 0.6};  ///< … however near or far it is
-constexpr int kMostViews = 4;               ///< times the frames are gone through: three views, and once before
 constexpr double kMostlyCars = 0.5;         ///< share of tracks that have to be as large as a car
 constexpr double kErrorOfLook = 0.11;       ///< standard error of the logarithm of the scale …
 constexpr double kErrorOfLength = 0.15;     ///< … and what one vehicle of unknown length adds
@@ -91,17 +90,19 @@ std::optional<EstimatedView> estimateView(FrameSource& source, FrameRange range,
     std::vector<Stretch> stretches = stretchesOf(range.first, last);
     int frames = 0;
     for (const Stretch& stretch : stretches) frames += stretch.count;
-    LookProgress progress(told, kMostViews * frames);
-    const VotesOfView given = votesOf(source, stretches, options, frame_rate_hz, stop, progress);
+    LookProgress voting(told, frames);
+    const VotesOfView given = votesOf(source, stretches, options, frame_rate_hz, stop, voting);
+    const std::vector<ViewFit> views = fitView(given.votes, source.info().size);
+    LookProgress trying(told, static_cast<int>(views.size()) * frames);
     std::optional<ViewFit> fit;
     ScaleOutcome found;
-    for (const ViewFit& view : fitView(given.votes, source.info().size)) {
+    for (const ViewFit& view : views) {
         const SceneScale scale{view.gsd_m_per_px, frame_rate_hz, false, view.slope};
         ScaleOutcome outcome;
         for (const Stretch& stretch : stretches) {
             const auto frame_of = [&](int i) { return source.read(stretch.first + i, false); };
             outcome = outcome + outcomeUnder(stretch.count, frame_of, lookingOptions(options), scale, stop,
-                                             [&] { progress.step(); });
+                                             [&] { trying.step(); });
         }
         if (!outcome.showsTraffic() || outcome.cars < kMostlyCars * outcome.tracks) continue;
         if (outcome.score() <= found.score()) continue;
