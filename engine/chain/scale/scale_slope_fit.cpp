@@ -71,6 +71,7 @@ struct MiddleFit {
 MiddleFit bestMiddle(double down, const std::vector<ScaleVote>& votes, cv::Size image) {
     const ScaleSlope slope = ScaleSlope::ofPicture(image, 0, down / (image.height / 2.0));
     std::vector<double> middles;  // logarithm of the scale that each vote asks for in the middle
+    middles.reserve(votes.size());
     for (const ScaleVote& vote : votes) middles.push_back(std::log(vote.gsd_m_per_px * slope.factorAt(vote.place)));
     MiddleFit best;
     for (double middle = std::log(kFinestMiddle); middle <= std::log(kCoarsestMiddle); middle += kGrowthStep) {
