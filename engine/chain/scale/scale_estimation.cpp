@@ -86,9 +86,9 @@ ScaleBasis basisOfChoice(const SceneScale& scale, const StatedScale& stated,
 std::optional<ScaleEstimate> estimateMiddle(FrameSource& source, FrameRange range, const ChainOptions& options,
                                             double frame_rate_hz, const std::stop_token& stop,
                                             const ScaleProgress& told) {
-    const FrameIndex end = source.info().frame_count - 1;
-    const FrameIndex last = range.last < 0 ? end : std::min(range.last, end);
-    if (range.first < 0 || range.first > last) return std::nullopt;
+    const std::optional<FrameIndex> last_of_look = lastOfLook(source, range);
+    if (!last_of_look) return std::nullopt;
+    const FrameIndex last = *last_of_look;
     const FrameIndex farthest = std::max(range.first, last - kFramesOfLook + 1);
     FrameIndex looked_to = range.first - 1;
     std::vector<ScaleOutcome> together(kScaleAssumptions);

@@ -1,5 +1,6 @@
 #include "chain/scale/scale_trial.h"
 
+#include <algorithm>
 #include <map>
 #include <vector>
 
@@ -13,6 +14,13 @@ constexpr int kSettledFrames = 14;  ///< until tracks have formed
 constexpr std::size_t kFewestStates = 8;
 
 }  // namespace
+
+std::optional<FrameIndex> lastOfLook(const FrameSource& source, FrameRange range) {
+    const FrameIndex end = source.info().frame_count - 1;
+    const FrameIndex last = range.last < 0 ? end : std::min(range.last, end);
+    if (range.first < 0 || range.first > last) return std::nullopt;
+    return last;
+}
 
 ScaleOutcome outcomeUnder(int count, const FrameOfLook& frame_of, const ChainOptions& options, const SceneScale& scale,
                           const std::stop_token& stop, const std::function<void()>& tell) {

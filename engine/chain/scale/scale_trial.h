@@ -1,17 +1,23 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <stop_token>
 
 #include "chain/chain_options.h"
+#include "chain/chain_run.h"
 #include "chain/scale/scale_outcomes.h"
 #include "core/values/frame.h"
 #include "core/values/scene_scale.h"
+#include "io/video/frame_source.h"
 
 namespace eyrie {
 
 /// The chain that looks: whatever detector the run is to use, here the classifier has to say what is a vehicle.
 ChainOptions lookingOptions(const ChainOptions& options);
+
+/// The last frame that a look at a range may read; nothing where the video has no frame of it.
+std::optional<FrameIndex> lastOfLook(const FrameSource& source, FrameRange range);
 
 /// The frame at a place of a look, from 0.
 using FrameOfLook = std::function<Frame(int)>;

@@ -10,6 +10,7 @@
 #include "chain/scale/look_progress.h"
 #include "chain/scale/moving_votes.h"
 #include "chain/scale/scale_slope_fit.h"
+#include "chain/scale/scale_trial.h"
 #include "core/error.h"
 
 namespace eyrie {
@@ -50,9 +51,9 @@ std::vector<ScaleVote> votesFrom(FrameSource& source, FrameIndex first, FrameInd
 
 ScaleSlope estimateSlope(FrameSource& source, FrameRange range, const ChainOptions& options, const SceneScale& scale,
                          const std::stop_token& stop, const ScaleProgress& told) {
-    const FrameIndex end = source.info().frame_count - 1;
-    const FrameIndex last = range.last < 0 ? end : std::min(range.last, end);
-    if (range.first < 0 || range.first > last) return {};
+    const std::optional<FrameIndex> last_of_look = lastOfLook(source, range);
+    if (!last_of_look) return {};
+    const FrameIndex last = *last_of_look;
     std::optional<ScaleLooker> looker;
     try {
         looker.emplace(options.detection.sliding_window);

@@ -84,9 +84,9 @@ VotesOfView votesOf(FrameSource& source, std::vector<Stretch>& stretches, const 
 std::optional<EstimatedView> estimateView(FrameSource& source, FrameRange range, const ChainOptions& options,
                                           double frame_rate_hz, const std::stop_token& stop,
                                           const ScaleProgress& told) {
-    const FrameIndex end = source.info().frame_count - 1;
-    const FrameIndex last = range.last < 0 ? end : std::min(range.last, end);
-    if (range.first < 0 || range.first > last) return std::nullopt;
+    const std::optional<FrameIndex> last_of_look = lastOfLook(source, range);
+    if (!last_of_look) return std::nullopt;
+    const FrameIndex last = *last_of_look;
     std::vector<Stretch> stretches = stretchesOf(range.first, last);
     int frames = 0;
     for (const Stretch& stretch : stretches) frames += stretch.count;
