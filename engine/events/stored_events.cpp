@@ -15,13 +15,18 @@ double StoredTracks::secondsOf(FrameIndex frame) const {
 }
 
 StoredTracks readTracks(const RunStore& store, const RunRecord& run, CorrectedTracks corrected) {
+    return readTracks(store, run, store.frameSummaries(run.id), std::move(corrected));
+}
+
+StoredTracks readTracks(const RunStore& store, const RunRecord& run, const std::vector<FrameSummary>& frames,
+                        CorrectedTracks corrected) {
     StoredTracks found;
     Footage& footage = found.footage;
     footage.image_size = run.sequence.size;
     footage.scale = run.scale;
     footage.first_frame = run.first_frame;
     footage.last_frame = run.first_frame - 1;
-    for (const FrameSummary& frame : store.frameSummaries(run.id)) {
+    for (const FrameSummary& frame : frames) {
         // Frames follow each other; what a damaged file lacks is shown at the time of the frame before.
         while (footage.last_frame < frame.frame) {
             found.shown_s.push_back(static_cast<double>(frame.time_us) / 1e6);
@@ -34,22 +39,28 @@ StoredTracks readTracks(const RunStore& store, const RunRecord& run, CorrectedTr
         if (registration.state == RegistrationState::failed) ++found.unregistered;
     });
     footage.camera = CameraMotion(steps);
-    std::unordered_map<TrackId, std::size_t> places;  // an hour has a million states to be placed
+    std::unordered_map<TrackId, std::size_t> numbers;  // an hour has a million boxes to be sorted by track
     for (const TrackSummary& track : trackSummaries(store, run.id, corrected)) {
         if (!track.confirmed) continue;
-        places.emplace(track.id, found.tracks.size());
-        found.tracks.emplace_back().id = track.id;
+        numbers.emplace(track.id, found.tracks.size());
+        EventTrack& added = found.tracks.emplace_back();
+        added.id = track.id;
+        added.boxes.reserve(std::min(static_cast<std::size_t>(track.frames), found.shown_s.size()));
+        found.scores[track.id] = track.score;
     }
-    std::vector<double> scores(found.tracks.size());  // the same in all states of a finished run
-    visitTrackStates(store, run.id, corrected, [&](FrameIndex frame, const TrackState& state) {
-        const auto place = places.find(state.id);
-        if (place == places.end()) return;
-        found.tracks[place->second].boxes.push_back({frame, state.box});
-        scores[place->second] = state.score;
+    store.visitTrackPlaces(run.id, [&](FrameIndex frame, TrackId track, const OrientedBox& box) {
+        const auto number = numbers.find(track);
+        if (number == numbers.end() || corrected.replaced.contains(track)) return;
+        found.tracks[number->second].boxes.push_back({frame, box});
     });
-    for (std::size_t i = 0; i < scores.size(); ++i)
-        if (!found.tracks[i].boxes.empty()) found.scores[found.tracks[i].id] = scores[i];
-    std::erase_if(found.tracks, [](const EventTrack& track) { return track.boxes.empty(); });
+    for (const auto& [id, track] : corrected.tracks) {
+        for (const TrackFrame& each : track.states)
+            found.tracks[numbers.at(id)].boxes.push_back({each.frame, each.state.box});
+    }
+    std::erase_if(found.tracks, [&](const EventTrack& track) {
+        if (track.boxes.empty()) found.scores.erase(track.id);
+        return track.boxes.empty();
+    });
     found.corrections = std::move(corrected);
     return found;
 }

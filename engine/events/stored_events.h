@@ -28,6 +28,9 @@ struct StoredTracks {
 
 /// Reads a run's tracks, with what corrections make of them, and how its frames were registered. Throws Error(project).
 StoredTracks readTracks(const RunStore& store, const RunRecord& run, CorrectedTracks corrected = {});
+/// The same for who has read the frames of the run already.
+StoredTracks readTracks(const RunStore& store, const RunRecord& run, const std::vector<FrameSummary>& frames,
+                        CorrectedTracks corrected);
 
 /// What people did to the tracks of an event, of several to the first such; nothing: they are the machine's.
 std::optional<CorrectionKind> correctionOf(const Event& event, const StoredTracks& stored);

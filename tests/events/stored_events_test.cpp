@@ -5,6 +5,8 @@
 
 #include "core/error.h"
 #include "events/review/reviewed_run.h"
+#include "support/temporary_folder.h"
+#include "support/written_run.h"
 
 namespace eyrie::stored_events_test {
 namespace {
@@ -78,6 +80,55 @@ TEST(StoredEvents, RemarksTellWhereZonesOnTheGroundHold) {
                             "zone \"gate\" counts in frames 150 to 199" + only + "150",
                             kBeyond + "99, but the run holds the frames 100 to 199"));
     EXPECT_THAT(remarksOn({gateIn(120)}, nothing()), IsEmpty());
+}
+
+TEST(StoredEvents, TracksAreReadAsTheRunFoundThemAndAsPeopleCorrectedThem) {
+    const test::TemporaryFolder folder;
+    const RunRecord run = test::writeRun(folder / "p.eyrie", 4, [](int frame, FrameResult& result) {
+        result.motion.time_us = frame * std::int64_t{40'000};
+        if (frame == 2) result.motion.registration.state = RegistrationState::failed;
+        for (const TrackId id : {1, 2, 3}) {
+            TrackState state;
+            state.id = id;
+            state.box = {{10.0 * id + frame, 5}, 8, 4, 0};
+            // The third is not sure in any frame, so it is no track of the result.
+            state.status = id == 3 ? TrackStatus::tentative : TrackStatus::confirmed;
+            state.score = 0.25 * id;
+            if (id != 2 || frame > 1) result.tracks.push_back(state);
+        }
+    });
+    ProjectFile project = ProjectFile::open(folder / "p.eyrie");
+    const RunStore store(project);
+    const StoredTracks found = readTracks(store, run);
+    EXPECT_EQ(found.footage.last_frame, 3);
+    EXPECT_EQ(found.unregistered, 1);
+    EXPECT_THAT(found.shown_s, ElementsAre(0, 0.04, 0.08, 0.12));
+    ASSERT_EQ(found.tracks.size(), 2U);
+    EXPECT_EQ(found.tracks[1].id, 2);
+    ASSERT_EQ(found.tracks[1].boxes.size(), 2U);
+    EXPECT_EQ(found.tracks[1].boxes[1].frame, 3);
+    EXPECT_EQ(found.tracks[1].boxes[1].box.centre, cv::Point2d(23, 5));
+    EXPECT_THAT(found.scores, ElementsAre(testing::Pair(1, 0.25), testing::Pair(2, 0.5)));
+
+    CorrectedTracks corrected;  // the first is rejected, the second is another, and there is a new one
+    corrected.replaced = {1, 2};
+    for (const TrackId id : {2, 7}) {
+        TrackFrame at;
+        at.frame = 1;
+        at.state.id = id;
+        at.state.box = {{100.0 * id, 5}, 8, 4, 0};
+        at.state.score = 1;
+        corrected.tracks[id].states = {at};
+    }
+    const StoredTracks mended = readTracks(store, run, corrected);
+    ASSERT_EQ(mended.tracks.size(), 2U);
+    for (const EventTrack& track : mended.tracks) {
+        ASSERT_EQ(track.boxes.size(), 1U) << track.id;
+        EXPECT_EQ(track.boxes[0].frame, 1);
+        EXPECT_EQ(track.boxes[0].box.centre.x, 100.0 * track.id);
+    }
+    EXPECT_THAT(mended.scores, ElementsAre(testing::Pair(2, 1), testing::Pair(7, 1)));
+    EXPECT_EQ(mended.corrections.replaced, corrected.replaced);
 }
 
 TEST(StoredEvents, AnEventIsAPersonsWhereOneOfItsTracksIs) {

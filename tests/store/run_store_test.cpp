@@ -327,6 +327,17 @@ TEST_F(RunStoreTest, WhatTheStatesOfAFinishedTrackHaveInCommonIsStoredOnceAndRea
             EXPECT_EQ(read[i].state.origin, written[i].state.origin);
         }
     }
+    std::size_t place = 0;
+    store.visitTrackPlaces(run, [&](FrameIndex frame, TrackId track, const OrientedBox& box) {
+        ASSERT_LT(place, written.size());
+        EXPECT_EQ(frame, written[place].frame);
+        EXPECT_EQ(track, 3);
+        EXPECT_EQ(box.centre, written[place].state.box.centre);
+        EXPECT_EQ(box.length, written[place].state.box.length);
+        EXPECT_EQ(box.heading, written[place].state.box.heading);
+        ++place;
+    });
+    EXPECT_EQ(place, written.size());
     const TrackState alone = store.frameResult(run, 7)->tracks.at(0);
     EXPECT_EQ(alone.score, 0.75);
     EXPECT_EQ(alone.age, 3);

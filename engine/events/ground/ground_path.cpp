@@ -91,6 +91,8 @@ GroundPath pieceFrom(const EventTrack& track, std::size_t first, const GroundStr
     path.first_box = first;
     path.stretch = ground.indexOf(track.boxes[first].frame);
     path.begins = first == 0;
+    raw.reserve(track.boxes.size() - first);
+    path.samples.reserve(track.boxes.size() - first);
     std::size_t i = first;
     for (; i < track.boxes.size(); ++i) {
         const TrackedBox& box = track.boxes[i];

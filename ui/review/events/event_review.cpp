@@ -75,6 +75,7 @@ void EventReview::refresh() {
                    (watched_ && watched_->id != *current);
         };
         if (!current || is_of_another()) close();
+        readAhead();
         return;
     }
     const RunKey key{session_.project(), data->record.id, data->frames.size(), ownTracks(*data)};
@@ -98,6 +99,13 @@ void EventReview::refresh() {
         search();
     else
         openStore(data->record.sequence.id);
+}
+
+/// Of a run that is done, what events are searched in, while the session reads its lists.
+void EventReview::readAhead() {
+    const RunRecord* run = session_.shownRun();
+    if (run == nullptr || run->live || session_.running() || session_.project().empty()) return;
+    ahead_.begin(session_.project(), *run);
 }
 
 /// When a live source has ended, its recording is opened: what was found in it stays.
@@ -127,6 +135,7 @@ void EventReview::close() {
     reread_.stop();
     reread_fault_told_ = false;
     look_again_.stop();
+    ahead_.forget();
     key_.reset();
     data_.reset();
     watched_.reset();
@@ -186,12 +195,16 @@ void EventReview::search() {
                        verdicts = store_->review().verdicts, corrections = store_->review().corrections,
                        zones = zonesOf(store_->review().zones), version = store_->version(),
                        memo = session_.correctedTracks(), former, number = ++searches_,
-                       corrections_made = corrections_made_](const BackgroundTask& task) mutable {
+                       corrections_made = corrections_made_,
+                       ahead = ahead_.take(key_->project, data_->record)](const BackgroundTask& task) mutable {
         if (!tracks) {
             ProjectFile project = ProjectFile::open(key.project, ProjectFile::Mode::read_only);
             const RunStore store(project);
-            tracks = std::make_shared<const StoredTracks>(
-                readTracks(store, data->record, *memo->of(store, key.project, data->record, corrections)));
+            const auto corrected = memo->of(store, key.project, data->record, corrections);
+            if (corrected->empty()) tracks = ahead.wait();
+            if (!tracks)
+                tracks =
+                    std::make_shared<const StoredTracks>(readTracks(store, data->record, data->frames, *corrected));
             task.tell([this, tracks, made = corrections_made] {
                 if (made != corrections_made_) return;  // others by now: they are read next
                 tracks_ = tracks;

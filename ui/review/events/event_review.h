@@ -11,6 +11,7 @@
 
 #include "events/review/judging.h"
 #include "review/events/found_events.h"
+#include "review/events/tracks_ahead.h"
 #include "session/background/background_query.h"
 #include "session/project_session.h"
 #include "store/review/review_store.h"
@@ -132,6 +133,7 @@ class EventReview : public QObject {
     };
 
     void refresh();
+    void readAhead();
     void close();
     void otherVideo();
     bool endWatching(int run_id);
@@ -183,8 +185,9 @@ class EventReview : public QObject {
     RepeatedCall reread_;             ///< what another window judges is read now and then
     bool reread_fault_told_ = false;  ///< and it could not be read since
     RepeatedCall look_again_;
+    TracksAhead ahead_;
     BackgroundQuery store_query_;
-    BackgroundQuery search_query_;  ///< last: both stop before the rest goes
+    BackgroundQuery search_query_;  ///< last: all stop before the rest goes
 };
 
 }  // namespace eyrie::ui
