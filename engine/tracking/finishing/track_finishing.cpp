@@ -322,7 +322,8 @@ FinishedTracks finishRun(const StatesOfRun& states, const GroundMotion& ground, 
     }
     std::erase_if(paths, [](const TrackPath& path) { return path.states.empty(); });
     paths = joinFragments(std::move(paths), ground, options, scale);
-    if (options.join_parts && hasMetricLimits(scale)) joinParts(paths, scale);
+    const bool join_parts = options.join_parts && hasMetricLimits(scale);
+    if (join_parts) joinParts(paths, scale, PartsOfVehicle::in_line);
     dropTooSmall(paths, options, scale, drops);
     dropSharers(paths, options.max_sharing, scale, drops);
     for (TrackPath& path : paths) {
@@ -332,6 +333,7 @@ FinishedTracks finishRun(const StatesOfRun& states, const GroundMotion& ground, 
     if (options.drop_shadows) dropShadows(paths, scale, drops);
     traceBack(paths, ground, found.vectors_at, framesOf(options.trace_back_s, scale));
     dropHardlyDetected(paths, options.min_detected, scale, drops);
+    if (join_parts) joinParts(paths, scale, PartsOfVehicle::overlapping);
     // Without a classifier nothing is known of looks, and nothing is judged by them.
     const bool judged = static_cast<bool>(found.classified_at);
     const VehicleLooks looks = judged ? looksOf(paths, found.classified_at) : VehicleLooks{};

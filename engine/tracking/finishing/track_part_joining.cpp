@@ -11,18 +11,23 @@
 namespace eyrie {
 namespace {
 
-constexpr double kSharedSeconds = 0.8;    ///< two tracks must be seen together this long
-constexpr double kPartOfShorter = 0.5;    ///< … and over this share of the shorter one's life
-constexpr double kTravelled = 8;          ///< m over the ground meanwhile: standing things say nothing
-constexpr double kSlowestForParts = 2.5;  ///< m/s; in slower traffic cars drive bumper to bumper
-constexpr double kPartGap = 0.6;          ///< m between parts
-constexpr double kAside = 1.0;            ///< m between the axes of parts
-constexpr double kLoose = 0.35;           ///< m by which the distance of parts scatters
-constexpr double kMostTurn = 0.35;        ///< radians
-constexpr double kPart = 3.6;             ///< m; one of the two is shorter than any car
-constexpr double kLongest = 20;           ///< m
-constexpr double kWidest = 3.6;           ///< m
-constexpr double kPixel = 1;              ///< px of tolerance, whatever the scale
+constexpr double kSharedSeconds = 0.8;     ///< two tracks must be seen together this long
+constexpr double kPartOfShorter = 0.5;     ///< … and over this share of the shorter one's life
+constexpr double kTravelled = 8;           ///< m over the ground meanwhile: standing things say nothing
+constexpr double kSlowestForParts = 2.5;   ///< m/s; in slower traffic cars drive bumper to bumper
+constexpr double kPartGap = 0.6;           ///< m between parts
+constexpr double kAside = 1.0;             ///< m between the axes of parts
+constexpr double kLoose = 0.35;            ///< m by which the distance of parts scatters
+constexpr double kMostTurn = 0.35;         ///< radians
+constexpr double kPart = 3.6;              ///< m; one of the two is shorter than any car
+constexpr double kLongest = 20;            ///< m
+constexpr double kWidest = 3.6;            ///< m
+constexpr double kPixel = 1;               ///< px of tolerance, whatever the scale
+constexpr double kCovered = 0.1;           ///< of the smaller part, where parts lie on each other …
+constexpr double kTravelledCovered = 4;    ///< … m over the ground that say enough then …
+constexpr double kCoveredOfShorter = 0.3;  ///< … share of the shorter one's life …
+constexpr double kLooseCovered = 0.5;      ///< … and m by which their distance scatters
+constexpr double kEstimated = 1.25;        ///< of the size of vehicles, where the GSD was estimated
 
 /// What a whole box adds to one of its parts, in the part's own axes; px.
 struct Growth {
@@ -53,10 +58,11 @@ struct Whole {
     Growth of_other;
 };
 
-/// How two tracks make one vehicle: they drive right behind each other as if fixed. Nothing if they do not.
-std::optional<Whole> wholeOf(const TrackPath& leader, const TrackPath& other, const SceneScale& everywhere) {
+/// How two tracks make one vehicle: they drive right behind or on each other as if fixed. Nothing if they do not.
+std::optional<Whole> wholeOf(const TrackPath& leader, const TrackPath& other, const SceneScale& everywhere,
+                             PartsOfVehicle wanted) {
     Whole whole;
-    std::vector<double> along, across, gaps, parts, lengths, widths;
+    std::vector<double> along, across, gaps, covered, parts, lengths, widths;
     double travelled = 0;
     forSharedFrames(leader, other, [&](const MovingState& state, const MovingState& of_other) {
         const OrientedBox& part = of_other.box;
@@ -65,6 +71,7 @@ std::optional<Whole> wholeOf(const TrackPath& leader, const TrackPath& other, co
         along.push_back(offset.x);
         across.push_back(std::abs(offset.y));
         gaps.push_back(std::abs(offset.x) - (state.box.length + part.length) / 2);
+        covered.push_back(containment(state.box, part));
         parts.push_back(std::min(state.box.length, part.length));
         travelled += std::hypot(state.velocity.x, state.velocity.y);
         const OrientedBox both = unionBox(state.box, part);
@@ -76,12 +83,18 @@ std::optional<Whole> wholeOf(const TrackPath& leader, const TrackPath& other, co
     const SceneScale scale = everywhere.at(middleOf(other));
     const auto frames = static_cast<double>(along.size());
     const auto shorter = static_cast<double>(std::min(leader.states.size(), other.states.size()));
-    if (frames < std::max(5.0, kSharedSeconds * scale.frame_rate_hz) || frames < kPartOfShorter * shorter) return {};
-    if (travelled < scale.px(kTravelled) || travelled / frames < scale.pxPerFrame(kSlowestForParts)) return {};
-    if (medianOf(gaps) > scale.px(kPartGap) + kPixel || medianOf(across) > scale.px(kAside) + kPixel) return {};
-    if (medianOf(parts) > scale.px(kPart)) return {};
-    if (spreadOf(along) > scale.px(kLoose) + kPixel / 2) return {};
-    if (medianOf(lengths) > scale.px(kLongest) || medianOf(widths) > scale.px(kWidest) + 2 * kPixel) return {};
+    const bool overlap = wanted == PartsOfVehicle::overlapping;
+    if (frames < std::max(5.0, kSharedSeconds * scale.frame_rate_hz)) return {};
+    if (frames < (overlap ? kCoveredOfShorter : kPartOfShorter) * shorter) return {};
+    if (overlap && medianOf(covered) < kCovered) return {};
+    if (travelled < scale.px(overlap ? kTravelledCovered : kTravelled)) return {};
+    if (travelled / frames < scale.pxPerFrame(kSlowestForParts)) return {};
+    if (medianOf(gaps) > scale.px(kPartGap) + kPixel) return {};
+    if (!overlap && medianOf(across) > scale.px(kAside) + kPixel) return {};
+    if (spreadOf(along) > scale.px(overlap ? kLooseCovered : kLoose) + kPixel / 2) return {};
+    const double metre = scale.px(overlap && !scale.gsd_known ? kEstimated : 1);
+    if (medianOf(parts) > kPart * metre) return {};
+    if (medianOf(lengths) > kLongest * metre || medianOf(widths) > kWidest * metre + 2 * kPixel) return {};
     return whole;
 }
 
@@ -105,7 +118,7 @@ void join(TrackPath& leader, const TrackPath& other, const Whole& whole) {
 
 }  // namespace
 
-void joinParts(std::vector<TrackPath>& paths, const SceneScale& scale) {
+void joinParts(std::vector<TrackPath>& paths, const SceneScale& scale, PartsOfVehicle wanted) {
     std::vector<std::size_t> order(paths.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(),
@@ -125,7 +138,7 @@ void joinParts(std::vector<TrackPath>& paths, const SceneScale& scale) {
                 const std::size_t k = *next++;
                 TrackPath& other = paths[order[k]];
                 if (other.states.empty()) continue;
-                const auto whole = wholeOf(leader, other, scale);
+                const auto whole = wholeOf(leader, other, scale, wanted);
                 if (!whole) continue;
                 join(leader, other, *whole);
                 other.states.clear();

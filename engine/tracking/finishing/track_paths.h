@@ -33,9 +33,15 @@ void prepend(TrackPath& path, const std::vector<TimedPathState>& backwards);
 std::vector<TrackPath> joinFragments(std::vector<TrackPath> paths, const GroundMotion& ground,
                                      const FinishingOptions& options, const SceneScale& scale);
 
-/// Joins tracks that are parts of one long vehicle: they drive one right behind the other as if fixed, faster and
-/// longer than bumper to bumper traffic would. The longer track's id stays.
-void joinParts(std::vector<TrackPath>& paths, const SceneScale& scale);
+/// How tracks lie that are parts of one vehicle.
+enum class PartsOfVehicle {
+    in_line,     ///< one right behind the other, faster and longer than bumper to bumper traffic would
+    overlapping  ///< on each other, as the cab, the load and the wheels of a lorry that is seen from the side
+};
+
+/// Joins tracks that are parts of one vehicle: they drive as if fixed to each other. The longer track's id stays. Boxes
+/// that overlap must be steady, and those of shadows be gone.
+void joinParts(std::vector<TrackPath>& paths, const SceneScale& scale, PartsOfVehicle wanted);
 
 /// Replaces lengths and widths by their weighted median over a window, on the ground: enlargement by the camera, and by
 /// the vehicle's own way towards it, is taken into account, detections count most.

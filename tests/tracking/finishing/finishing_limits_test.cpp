@@ -16,7 +16,7 @@ using test::shaking;
 
 void expectParts(bool expected, const Lane& leader, const Lane& other, const SceneScale& scale = kFourToAMetre) {
     onEveryRoad(leader, other, [&](std::vector<TrackPath> paths) {
-        joinParts(paths, scale);
+        joinParts(paths, scale, PartsOfVehicle::in_line);
         EXPECT_EQ(paths.size() == 1, expected);
     });
 }
@@ -161,7 +161,7 @@ TEST(JoinParts, OfDifferentLivesMakeOneTrackOfTheWholeSizeThroughout) {
     lorry.rear.size.height = 8;
     onEveryRoad(lorry.front, lorry.rear, [&](std::vector<TrackPath> paths) {
         const double heading = paths[0].states[0].second.box.heading;
-        joinParts(paths, kFourToAMetre);
+        joinParts(paths, kFourToAMetre, PartsOfVehicle::in_line);
         ASSERT_EQ(paths.size(), 1U);
         EXPECT_EQ(paths[0].id, 1);
         ASSERT_EQ(paths[0].states.size(), 55U) << "each frame once";
@@ -186,7 +186,7 @@ TEST(JoinParts, ThreeOfThemAreOneVehicle) {
     last.offset = {-26.5, 0};
     lorry.rear.id = 2;
     std::vector<TrackPath> paths{lorry.front.path(), last.path(), lorry.rear.path()};
-    joinParts(paths, kFourToAMetre);
+    joinParts(paths, kFourToAMetre, PartsOfVehicle::in_line);
     ASSERT_EQ(paths.size(), 1U);
     EXPECT_NEAR(paths[0].states[20].second.box.length, 40.5, 1e-3);
 }
