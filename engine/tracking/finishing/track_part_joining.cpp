@@ -25,7 +25,7 @@ constexpr double kWidest = 3.6;            ///< m
 constexpr double kPixel = 1;               ///< px of tolerance, whatever the scale
 constexpr double kCovered = 0.1;           ///< of the smaller part, where parts lie on each other …
 constexpr double kTravelledCovered = 4;    ///< … m over the ground that say enough then …
-constexpr double kCoveredOfShorter = 0.3;  ///< … share of the shorter one's life …
+constexpr double kCoveredOfLonger = 0.25;  ///< … share of the longer one's life, whose box grows throughout …
 constexpr double kLooseCovered = 0.5;      ///< … and m by which their distance scatters
 constexpr double kEstimated = 1.25;        ///< of the size of vehicles, where the GSD was estimated
 
@@ -82,10 +82,11 @@ std::optional<Whole> wholeOf(const TrackPath& leader, const TrackPath& other, co
     });
     const SceneScale scale = everywhere.at(middleOf(other));
     const auto frames = static_cast<double>(along.size());
-    const auto shorter = static_cast<double>(std::min(leader.states.size(), other.states.size()));
+    const auto [shorter, longer] =
+        std::minmax({static_cast<double>(leader.states.size()), static_cast<double>(other.states.size())});
     const bool overlap = wanted == PartsOfVehicle::overlapping;
     if (frames < std::max(5.0, kSharedSeconds * scale.frame_rate_hz)) return {};
-    if (frames < (overlap ? kCoveredOfShorter : kPartOfShorter) * shorter) return {};
+    if (frames < (overlap ? kCoveredOfLonger * longer : kPartOfShorter * shorter)) return {};
     if (overlap && medianOf(covered) < kCovered) return {};
     if (travelled < scale.px(overlap ? kTravelledCovered : kTravelled)) return {};
     if (travelled / frames < scale.pxPerFrame(kSlowestForParts)) return {};
