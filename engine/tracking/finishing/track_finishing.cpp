@@ -169,8 +169,8 @@ void FinishingOptions::describe(ParameterVisitor& v) {
     declare.flag(
         "finishing.join_parts", join_parts,
         {"",
-         "Tracks that drive right behind each other as if fixed are one long vehicle. Used where the ground sampling "
-         "distance is known.",
+         "Tracks that drive right behind or on each other as if fixed are parts of one vehicle. Used where the ground "
+         "sampling distance is known or was estimated.",
          ""});
 }
 
