@@ -78,8 +78,8 @@ std::vector<TrackFrame> joinedStates(const std::vector<TrackFrame>& one, const s
         if (!fresh && wasSeen(each.state) && !wasSeen(there->second)) there->second = each.state;
     }
     // Gaps that a track had before are left to it.
-    const FrameIndex end = std::min(one.back().frame, other.back().frame);
-    const FrameIndex begin = std::max(one.front().frame, other.front().frame);
+    const FrameIndex end = one.back().frame;
+    const FrameIndex begin = other.front().frame;
     std::vector<TrackFrame> states;
     for (const auto& [frame, state] : chosen) {
         if (!states.empty() && states.back().frame == end && frame == begin && frame - end <= longest_gap + 1) {

@@ -66,18 +66,18 @@ std::vector<Pair> pairsOf(const std::vector<Chain>& chains, const std::vector<La
 /// Gives the frame's boxes ids, counts those that begin `objects`, and answers the objects that go on from here.
 std::vector<Chain> linked(const std::vector<Chain>& chains, const std::vector<LabelBox*>& boxes, FreeNumbers& ids,
                           int& objects) {
-    std::vector<char> chain_used(chains.size(), 0), box_used(boxes.size(), 0);
+    std::vector<bool> chain_used(chains.size(), false), box_used(boxes.size(), false);
     std::vector<Chain> going_on;
     for (const Pair& pair : pairsOf(chains, boxes)) {
-        if (chain_used[pair.chain] != 0 || box_used[pair.box] != 0) continue;
-        chain_used[pair.chain] = box_used[pair.box] = 1;
+        if (chain_used[pair.chain] || box_used[pair.box]) continue;
+        chain_used[pair.chain] = box_used[pair.box] = true;
         const Chain& chain = chains[pair.chain];
         LabelBox& record = *boxes[pair.box];
         record.id = chain.id;
         going_on.push_back({chain.id, record.box, record.box.centre - chain.last.centre, chain.object_class});
     }
     for (std::size_t b = 0; b < boxes.size(); ++b) {
-        if (box_used[b] != 0) continue;
+        if (box_used[b]) continue;
         boxes[b]->id = ids.next();
         ++objects;
         going_on.push_back({*boxes[b]->id, boxes[b]->box, {0, 0}, boxes[b]->object_class});

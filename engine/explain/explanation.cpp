@@ -67,10 +67,9 @@ void decideByFate(Story& story, const std::vector<const CornerVerdict*>& corners
     CornerFate fate = CornerFate::young;
     for (const CornerFate candidate : kFurthest) {
         const int count = counts[static_cast<std::size_t>(candidate)];
-        const bool outweighed =
-            candidate == CornerFate::shadow || candidate == CornerFate::parallax || candidate == CornerFate::too_fast;
+        const bool may_be_outweighed = candidate != CornerFate::slow && candidate != CornerFate::young;
         if (count == 0) continue;
-        if (outweighed && 4 * count < static_cast<int>(corners.size())) continue;
+        if (may_be_outweighed && 4 * count < static_cast<int>(corners.size())) continue;
         fate = candidate;
         break;
     }
@@ -129,17 +128,17 @@ void tellVerdicts(Story& story, const std::vector<const CornerVerdict*>& corners
                                   CornerFate::parallax, CornerFate::shadow}) {
         const int count = counts[static_cast<std::size_t>(fate)];
         if (count == 0) continue;
-        const CornerVerdict* closest = closestOf(corners, fate);
+        const CornerVerdict& closest = *closestOf(corners, fate);
         std::string text =
             countText(static_cast<std::size_t>(count), "corner is ", "corners are ") + std::string(fateText(fate));
-        if (closest != nullptr && closest->baseline > 0) {
-            text += ": fastest " + story.speedText(closest->speed) + ", threshold " + story.speedText(closest->limit) +
-                    " over " + std::to_string(closest->baseline) + " frames";
+        if (closest.baseline > 0) {
+            text += ": fastest " + story.speedText(closest.speed) + ", threshold " + story.speedText(closest.limit) +
+                    " over " + std::to_string(closest.baseline) + " frames";
         }
         if (fate == CornerFate::moving)
             story.pass("motion", text, "motion.min_speed");
         else
-            story.note("motion", text, closest != nullptr ? closest->parameter : std::string());
+            story.note("motion", text, closest.parameter);
     }
 }
 

@@ -58,10 +58,9 @@ std::string groupText(const Alike& group) {
            (group.first->at_most ? ", at most " : ", at least ") + numberText(group.first->limit);
 }
 
-/// How close a failed check came, 1: to its limit.
-double closeness(const DetectionTrace::Check& check) {
-    const double gap = std::abs(check.value - check.limit) / std::max(std::abs(check.limit), 1.0);
-    return 1 / (1 + gap);
+/// How far a failed check stayed from its limit, as a share of it.
+double gapOf(const DetectionTrace::Check& check) {
+    return std::abs(check.value - check.limit) / std::max(std::abs(check.limit), 1.0);
 }
 
 }  // namespace
@@ -87,7 +86,7 @@ bool tellDetection(Story& story, const std::vector<int>& clusters, std::vector<i
         for (const DetectionTrace::Check& check : search.trace.checks) {
             if (!concerns(check, search.roi, evidence.area)) continue;
             addTo(groups, check);
-            if (!check.passed && (decider == nullptr || closeness(check) >= closeness(*decider))) decider = &check;
+            if (!check.passed && (decider == nullptr || gapOf(check) <= gapOf(*decider))) decider = &check;
         }
         for (const Alike& group : groups) {
             const std::string& parameter = group.first->parameter;

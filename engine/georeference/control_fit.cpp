@@ -91,15 +91,10 @@ std::vector<ControlResidual> residualsOf(const ControlPairs& pairs, const cv::Ma
     return residuals;
 }
 
-/// Whether x, which goes right, and y, which goes down, do not lie on the ground as a camera sees them from above.
-bool isMirrored(const cv::Matx33d& map, const std::vector<cv::Point2d>& image) {
-    cv::Point2d middle(0, 0);
-    for (const cv::Point2d& point : image) middle += point;
-    middle /= static_cast<double>(image.size());
-    const cv::Point2d here = applied(map, middle);
-    const cv::Point2d right = applied(map, middle + cv::Point2d(0.1, 0)),
-                      down = applied(map, middle + cv::Point2d(0, 0.1));
-    return (right - here).cross(down - here) > 0;
+/// Whether x, which goes right, and y, which goes down, do not lie on the ground as a camera sees them from above. In
+/// front of the horizon a projective map turns areas over by the sign of its determinant.
+bool isMirrored(const cv::Matx33d& map) {
+    return cv::determinant(map) > 0;
 }
 
 std::optional<std::size_t> suspectAmong(const ControlPairs& pairs, double rms_m) {
@@ -181,7 +176,7 @@ std::vector<ControlFit> fitControlPoints(const std::vector<ControlPoint>& points
             tell(std::to_string(fit.points) + " control points, but they lie on a line or contradict each other");
             continue;
         }
-        if (isMirrored(*map, pairs.image)) {
+        if (isMirrored(*map)) {
             tell(
                 std::to_string(fit.points) +
                 " control points, but by them the picture is a mirror image; two of them may be exchanged, or latitude "

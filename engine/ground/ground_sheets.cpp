@@ -92,8 +92,7 @@ const cv::Matx33d& GroundSheets::sheetFromImage(FrameIndex frame) const {
 std::optional<cv::Point2d> GroundSheets::inImage(FrameIndex frame, cv::Point2d on_sheet) const {
     if (sheetOf(frame) < 0) return std::nullopt;
     const cv::Matx33d back = sheetFromImage(frame).inv();
-    const double w = back(2, 0) * on_sheet.x + back(2, 1) * on_sheet.y + back(2, 2);
-    if (!(w * back(2, 2) > 0)) return std::nullopt;
+    // What lies behind the camera is not inside: maps are sound, no horizon crosses a picture.
     const cv::Point2d place = HomographyJacobian(back, on_sheet).point();
     const bool inside =
         place.x >= -0.5 && place.y >= -0.5 && place.x <= image_.width - 0.5 && place.y <= image_.height - 0.5;

@@ -7,12 +7,9 @@
 namespace eyrie {
 
 std::vector<OrientedBox> ThreeFrameBoxes::boxesOf(const cv::Mat& moving) const {
-    cv::Mat joined = moving;
     const int side = cvRound(options_.joining / 2) * 2 + 1;
-    if (side > 1) {
-        cv::morphologyEx(moving, joined, cv::MORPH_CLOSE, cv::getStructuringElement(cv::MORPH_ELLIPSE, {side, side}));
-    }
-    cv::Mat labels, facts, centres;
+    cv::Mat joined, labels, facts, centres;
+    cv::morphologyEx(moving, joined, cv::MORPH_CLOSE, cv::getStructuringElement(cv::MORPH_ELLIPSE, {side, side}));
     const int count = cv::connectedComponentsWithStats(joined, labels, facts, centres, 8, CV_32S);
     std::vector<OrientedBox> boxes;
     for (int i = 1; i < count; ++i) {

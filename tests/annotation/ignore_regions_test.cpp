@@ -74,6 +74,28 @@ TEST(IgnoreRegions, CoveringBoxesCoverTheInsideAndLittleElse) {
     EXPECT_TRUE(coveringBoxes({{0, 0}, {5, 0}, {9, 0}}).empty());
 }
 
+TEST(IgnoreRegions, RowsOfCoveringBoxesAreAsHighAsAskedForAtMost) {
+    const auto rowsOf = [](double height, double row_px) {
+        const auto boxes = coveringBoxes({{10, 20}, {40, 20}, {40, 20 + height}, {10, 20 + height}}, row_px);
+        double covered = 0;
+        for (const OrientedBox& box : boxes) {
+            EXPECT_NEAR(box.centre.x, 25, 1e-9);
+            EXPECT_NEAR(box.centre.y, 20 + covered + box.width / 2, 1e-9);
+            EXPECT_NEAR(box.length, 30, 1e-9);
+            EXPECT_EQ(box.heading, 0);
+            covered += box.width;
+        }
+        EXPECT_NEAR(covered, height, 1e-9);
+        return boxes.size();
+    };
+    EXPECT_EQ(rowsOf(3, 4), 1U);
+    EXPECT_EQ(rowsOf(4, 4), 1U);
+    EXPECT_EQ(rowsOf(5, 4), 2U);
+    EXPECT_EQ(rowsOf(8.1, 4), 3U);
+    EXPECT_EQ(rowsOf(2, 0.1), 4U) << "half a pixel at least";
+    EXPECT_EQ(rowsOf(4000, 0.5), 4096U) << "no more than that";
+}
+
 AnnotationSet street() {
     AnnotationSet set;
     set.objects[3] = object(3, {keyframe(0, {{50, 50}, 20, 9, 0}), keyframe(10, {{100, 50}, 20, 9, 0})}, 12);

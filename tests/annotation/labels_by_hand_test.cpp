@@ -186,6 +186,35 @@ TEST(JoinsByHand, ObjectsThatShareThreeTenthsMayBeFused) {
     EXPECT_TRUE(suggestFusions(set, 77, {}).empty());
 }
 
+TEST(JoinsByHand, OnlyFramesInWhichBothAreSeenAreShared) {
+    const auto away = [](Keyframe made) {
+        made.outside = true;
+        return made;
+    };
+    AnnotationSet set;
+    set.objects[1] = objectOf(1, {keyframe(0, 100), away(keyframe(30, 100))}, 39);
+    set.objects[2] = objectOf(2, {away(keyframe(0, 300)), keyframe(20, 100)}, 39);
+    set.objects[3] =
+        objectOf(3, {keyframe(0, 100), away(keyframe(5, 100)), keyframe(25, 300), away(keyframe(35, 9))}, 39);
+    set.objects[4] = objectOf(4, {away(keyframe(0, 100)), keyframe(30, 100)}, 39);
+    const CameraMotion camera = CameraMotion::standing(0, 999);
+    const auto found = suggestFusions(set, 1, camera);
+    ASSERT_EQ(found.size(), 2U) << "the fourth is seen only while the first is not";
+    EXPECT_EQ(found[0].object, 2);
+    EXPECT_EQ(found[0].shared_frames, 10);
+    EXPECT_NEAR(found[0].mean_overlap, 1, 1e-9);
+    EXPECT_EQ(found[1].object, 3);
+    EXPECT_EQ(found[1].shared_frames, 10);
+    EXPECT_NEAR(found[1].mean_overlap, 0.5, 1e-9) << "five frames at one place, five far away";
+    // It does not matter which of the two is asked about.
+    const auto back = suggestFusions(set, 2, camera, 0);
+    ASSERT_EQ(back.size(), 3U);
+    EXPECT_EQ(back[0].object, 1);
+    EXPECT_EQ(back[0].shared_frames, 10);
+    EXPECT_EQ(back[1].object, 4);
+    EXPECT_EQ(back[1].shared_frames, 10);
+}
+
 TEST(BoxPatchByHand, HasASampleAPixelBetweenSixAndFortyEight) {
     EXPECT_EQ(BoxPatch::samplesFor({{0, 0}, 20.4, 9.6, 0}), cv::Size(20, 10));
     EXPECT_EQ(BoxPatch::samplesFor({{0, 0}, 5, 2, 0}), cv::Size(6, 6));

@@ -112,6 +112,52 @@ TEST(ObjectStack, LeavesOutFramesInWhichItIsHidden) {
     EXPECT_LT(error(stack.stacked, stack.area, 20), 10);
 }
 
+TEST(ObjectStack, ShowsHalfTheLengthAroundTheBoxAndThreePixelsAtLeast) {
+    const auto areaOf = [](double length, double width) {
+        const auto box = test::object(1, {test::keyframe(0, {{100, 80}, length, width, 0.5})}, 0);
+        const ObjectStack stack = stackObject(box, 0, CameraMotion::standing(0, 1),
+                                              [](FrameIndex) { return cv::Mat(160, 240, CV_8UC1, cv::Scalar(90)); });
+        EXPECT_EQ(stack.area.centre, cv::Point2d(100, 80));
+        EXPECT_EQ(stack.area.heading, 0.5);
+        return cv::Size2d(stack.area.length, stack.area.width);
+    };
+    EXPECT_EQ(areaOf(26, 12), cv::Size2d(26 + 2 * 13, 12 + 2 * 13));
+    EXPECT_EQ(areaOf(12, 26), cv::Size2d(12 + 2 * 6, 26 + 2 * 6));
+    EXPECT_EQ(areaOf(4, 2), cv::Size2d(4 + 2 * 3, 2 + 2 * 3));
+    // 512 samples along the longest side at most.
+    EXPECT_NEAR(areaOf(300, 100).width, 600, 1.5);
+    EXPECT_NEAR(areaOf(300, 100).height, 400, 1.5);
+}
+
+TEST(ObjectStack, BringsWhatGrowsToTheSizeItHasInTheFrame) {
+    // The camera comes down on a parked car: all grows from half to twice its size.
+    const cv::Mat ground = test::groundTexture({240, 160}, 9, 3, 20, 235);
+    const auto sizeIn = [](FrameIndex frame) { return 0.5 + 1.5 * frame / kLast; };
+    const auto gray = [&](FrameIndex frame) {
+        const double s = sizeIn(frame);
+        cv::Mat picture;
+        cv::warpAffine(ground, picture, cv::Matx23d(s, 0, 120 - s * 120, 0, s, 80 - s * 80), ground.size(),
+                       cv::INTER_CUBIC, cv::BORDER_REFLECT);
+        return picture;
+    };
+    std::vector<Keyframe> keyframes;
+    for (FrameIndex frame = 0; frame <= kLast; ++frame)
+        keyframes.push_back(test::keyframe(frame, {{120, 80}, 30 * sizeIn(frame), 20 * sizeIn(frame), 0.4}, true));
+    const LabelledObject car = test::object(1, keyframes, kLast);
+    ObjectStackOptions options;
+    options.min_correlation = 0.9;
+    const ObjectStack stack = stackObject(car, 20, CameraMotion::standing(0, kLast), gray, options);
+    EXPECT_EQ(stack.layers, 25) << "each looks the same";
+    ObjectStackOptions one = options;
+    one.layers = 3;
+    const ObjectStack three = stackObject(car, 20, CameraMotion::standing(0, kLast), gray, one);
+    ASSERT_FALSE(stack.stacked.empty());
+    ASSERT_FALSE(three.stacked.empty());
+    cv::Mat difference;
+    cv::absdiff(stack.stacked, three.stacked, difference);
+    EXPECT_LT(cv::mean(difference)[0], 3);
+}
+
 TEST(ObjectStack, SaysNothingWhereThereIsNone) {
     NoisyScene scene(5);
     const auto gray = [&](FrameIndex frame) { return scene.picture(frame); };

@@ -39,6 +39,72 @@ TEST(Proposals, AreFewKeyframesAndLeaveLabelsAlone) {
     EXPECT_EQ(again[1].same_as, 0);
 }
 
+/// Shakes from frame to frame while it goes to the right before a camera that stands.
+DenseTrack shaking(double length, double by_px, int frames = 60) {
+    DenseTrack result;
+    for (int frame = 0; frame < frames; ++frame)
+        result.boxes.push_back({frame, {{50 + 3.0 * frame, 80 + (frame % 2 == 0 ? by_px : -by_px)}, length, 9, 0}});
+    return result;
+}
+
+TEST(Proposals, MayBeOffByAnEighthOfTheUsualLengthAndByTheToleranceInAnyCase) {
+    const CameraMotion camera = CameraMotion::standing(0, 100);
+    const auto of = [&](const DenseTrack& dense, double tolerance_px = 1.5) {
+        ProposalOptions options;
+        options.reduction.tolerance_px = tolerance_px;
+        options.reduction.min_overlap = tolerance_px > 0 ? 0 : 0.95;
+        return proposeTracks({dense}, {}, camera, options).at(0);
+    };
+    // 12 px of 100, 2.4 px of 20, 1.5 px of 5.
+    EXPECT_LE(of(shaking(100, 5)).object.keyframes.size(), 3U);
+    EXPECT_GT(of(shaking(20, 5)).object.keyframes.size(), 20U);
+    EXPECT_LE(of(shaking(20, 1.1)).object.keyframes.size(), 3U);
+    EXPECT_LE(of(shaking(5, 0.6)).object.keyframes.size(), 3U);
+    EXPECT_LE(of(shaking(20, 5), 15).object.keyframes.size(), 3U) << "as asked for";
+    for (const Keyframe& keyframe : of(shaking(20, 1)).object.keyframes) EXPECT_TRUE(keyframe.computed);
+    // What they are off is told.
+    EXPECT_GT(of(shaking(100, 5)).max_corner_px, 4.5);
+    EXPECT_LE(of(shaking(100, 5)).max_corner_px, 12);
+    EXPECT_LE(of(shaking(20, 5)).max_corner_px, 2.4);
+    // One odd length does not count, and where corners are not looked at, the length does not matter.
+    DenseTrack odd = shaking(20, 5);
+    for (const std::size_t frame : {10U, 30U, 59U}) odd.boxes[frame].box.length = 2000;
+    EXPECT_GT(of(odd).object.keyframes.size(), 20U);
+    EXPECT_GT(of(shaking(100, 5), 0).object.keyframes.size(), 20U);
+}
+
+TEST(Proposals, AreLabelledAlreadyWhereAThirdOfTheTrackIsByHalf) {
+    const CameraMotion camera = CameraMotion::standing(0, 100);
+    const DenseTrack dense = shaking(20, 0);
+    AnnotationSet labelled;
+    const auto add = [&](ObjectId id, FrameIndex first, FrameIndex last, double ahead_px) {
+        OrientedBox begin = dense.boxes[0].box, end = dense.boxes[0].box;
+        begin.centre.x += 3.0 * first + ahead_px;
+        end.centre.x += 3.0 * last + ahead_px;
+        labelled.objects[id] = test::object(id, {test::keyframe(first, begin), test::keyframe(last, end)}, last);
+    };
+    const auto same = [&] { return proposeTracks({dense}, labelled, camera).at(0).same_as; };
+    EXPECT_EQ(same(), 0);
+    add(4, 0, 14, 0);
+    EXPECT_EQ(same(), 0) << "a quarter of 60 frames";
+    add(4, 0, 19, 0);
+    EXPECT_EQ(same(), 4);
+    add(4, 40, 99, 0);
+    EXPECT_EQ(same(), 4);
+    add(4, 50, 99, 0);
+    EXPECT_EQ(same(), 0);
+    add(4, 0, 59, 6);
+    EXPECT_EQ(same(), 4) << "14 of 26 px";
+    add(4, 0, 59, 7);
+    EXPECT_EQ(same(), 0) << "13 of 27 px";
+    add(4, 0, 59, 5);
+    add(5, 0, 59, 2);
+    add(6, 0, 59, 4);
+    EXPECT_EQ(same(), 5) << "the one that lies best";
+    labelled.objects[5].keyframes[0].outside = true;
+    EXPECT_EQ(same(), 6) << "what is not seen is not the same";
+}
+
 TEST(Proposals, AreCutToARange) {
     const auto proposal = proposeTracks({track(3, 0, 150, 50)}, {}, flying)[0];
     const LabelledObject cut = cutToRange(proposal.object, 40, 60, flying);

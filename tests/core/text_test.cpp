@@ -73,6 +73,15 @@ TEST(Text, DistanceIsTheLeastNumberOfChanges) {
         for (const std::string& b : words) ASSERT_EQ(editDistance(a, b), slowDistance(a, b)) << a << ' ' << b;
 }
 
+TEST(Text, TheDistanceOfPartsOfATextSeesNothingOfTheRest) {
+    const std::string_view a = "ba", b = "xab", c = "bay";
+    EXPECT_EQ(editDistance(a.substr(1), b.substr(1)), 1u) << "a and ab, behind b and x";
+    EXPECT_EQ(editDistance(b.substr(1), a.substr(1)), 1u);
+    EXPECT_EQ(editDistance(a.substr(1), c.substr(1, 1)), 0u);
+    EXPECT_EQ(editDistance(b.substr(1, 1), c.substr(0, 2)), 1u) << "a and ba";
+    EXPECT_EQ(nearestWord(b.substr(1), {"ac", "ba"}), "ac") << "as near as the swap behind it";
+}
+
 TEST(Text, TheNearestWordIsFoundWhereOneIsNear) {
     const std::vector<std::string> known{"run", "render", "report", "evaluate"};
     EXPECT_EQ(nearestWord("rnu", known), "run");

@@ -124,6 +124,63 @@ TEST_F(CorrectedRun, WhatATrackOfOtherFramesIsAddedToIsThereToo) {
     EXPECT_THAT(frames, ElementsAre(55, 56, 57, 58));
 }
 
+TEST_F(CorrectedRun, WhatWasDrawnBeyondTheRunIsLeftOut) {
+    std::map<int, TrackCorrection> corrections;
+    corrections[1] = additionOf(drivenSightings(0, 80, 10, 20), 30);
+    corrections[1].id = 1;
+    const auto framesIn = [&](const RunRecord& run) {
+        const CorrectedTracks corrected = correctedTracksOf(RunStore(*project_), run, corrections);
+        std::vector<FrameIndex> frames;
+        for (const auto& [id, track] : corrected.tracks)
+            frames.insert(frames.end(), {track.states.front().frame, track.states.back().frame});
+        return frames;
+    };
+    EXPECT_THAT(framesIn(run_), ElementsAre(0, 59));
+    RunRecord part = run_;
+    part.first_frame = 10;
+    part.frames_done = 20;
+    EXPECT_THAT(framesIn(part), ElementsAre(10, 29));
+    part.frames_done = 1;
+    EXPECT_THAT(framesIn(part), ElementsAre(10, 10));
+    part.frames_done = 0;
+    EXPECT_THAT(framesIn(part), ElementsAre());
+    part = run_;
+    part.live = true;
+    EXPECT_THAT(framesIn(part), ElementsAre()) << "it is being written";
+}
+
+TEST_F(CorrectedRun, PartsOfATrackAreSummedUpAsTracksOfARunAre) {
+    std::vector<TrackFrame> faster = drivenStates(2, 0, 59, 10);
+    for (TrackFrame& each : faster) {
+        each.state.score = 0.01 * each.frame;
+        each.state.velocity = {3.0 * each.frame, 4.0 * each.frame};
+        each.state.box.length = 10 + each.frame;
+        each.state.box.width = 5 + 0.1 * each.frame;
+    }
+    const RunRecord run = test::writeRun(path_, kFrames, [&](int frame, FrameResult& result) {
+        result.tracks.push_back(faster[static_cast<std::size_t>(frame)].state);
+    });
+    const RunStore store(*project_);
+    const TrackSummary whole = trackSummaries(store, run.id, {}).at(0);
+    EXPECT_NEAR(whole.score, 0.59, 1e-4) << "that of its last frame";
+    EXPECT_NEAR(whole.mean_speed_px, 5 * 29.5, 1e-4);
+    correct(splitOf(faster, 40));
+    const auto parts = trackSummaries(store, run.id, readCorrectedTracks(*project_, run));
+    ASSERT_EQ(parts.size(), 2U);
+    EXPECT_EQ(parts[0].id, 2);
+    EXPECT_EQ(parts[0].last_frame, 39);
+    EXPECT_EQ(parts[1].first_frame, 40);
+    EXPECT_EQ(parts[1].frames, 20);
+    EXPECT_NEAR(parts[0].score, 0.39, 1e-4);
+    EXPECT_NEAR(parts[1].score, 0.59, 1e-4);
+    EXPECT_NEAR(parts[0].mean_speed_px, 5 * 19.5, 1e-3);
+    EXPECT_NEAR(parts[0].mean_length_px, 10 + 19.5, 1e-3);
+    EXPECT_NEAR(parts[0].mean_width_px, 5 + 1.95, 1e-3);
+    EXPECT_NEAR(parts[1].place.x, 10 + 2 * 49.5, 1e-3);
+    EXPECT_NEAR(parts[1].place.y, 50, 1e-3);
+    EXPECT_TRUE(parts[0].confirmed);
+}
+
 TEST_F(CorrectedRun, ARejectedTrackIsInNothingButItsOwnList) {
     const auto rows = test::rowsOf(path_, run_.id);
     const RunStore store(*project_);

@@ -69,6 +69,35 @@ TEST(CorrectionsByHand, ManyBoxesAreComparedByAFewDozenEvenly) {
     EXPECT_THAT(framesOf(rejection.track), ElementsAre(10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30, 32));
 }
 
+TEST(CorrectionsByHand, OfTheTrackThatIsKeptTheBoxesBesideTheRejectedOneAreHeld) {
+    const auto kept = drivenStates(5, 0, 59, 0);
+    const TrackCorrection rejection = rejectionOf(drivenStates(3, 10, 32, 0), kept);
+    EXPECT_EQ(rejection.frame, 10);
+    EXPECT_THAT(framesOf(rejection.other), ElementsAre(10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30, 32));
+    EXPECT_THAT(framesOf(rejectionOf(drivenStates(3, 10, 12, 0), kept).other), ElementsAre(10, 11, 12));
+    EXPECT_THAT(framesOf(rejectionOf(drivenStates(3, 58, 70, 0), kept).other), ElementsAre(58, 59));
+    EXPECT_THAT(framesOf(rejectionOf(drivenStates(3, 60, 70, 0), kept).other), ElementsAre());
+}
+
+TEST(CorrectionsByHand, OnlyTheGapBetweenTwoTracksIsFilled) {
+    const auto framesJoined = [](const std::vector<TrackFrame>& one, const std::vector<TrackFrame>& other) {
+        std::vector<FrameIndex> frames;
+        for (const TrackFrame& each : joinedStates(one, other, kStill, 100)) frames.push_back(each.frame);
+        return frames;
+    };
+    const auto broken = [](FrameIndex first, FrameIndex last, FrameIndex again, FrameIndex end) {
+        auto states = drivenStates(3, first, last, 0);
+        for (const TrackFrame& each : drivenStates(3, again, end, 0)) states.push_back(each);
+        return states;
+    };
+    EXPECT_THAT(framesJoined(drivenStates(3, 0, 1, 0), drivenStates(7, 4, 5, 0)), ElementsAre(0, 1, 2, 3, 4, 5));
+    EXPECT_THAT(framesJoined(broken(0, 0, 3, 3), drivenStates(7, 5, 5, 0)), ElementsAre(0, 3, 4, 5));
+    EXPECT_THAT(framesJoined(drivenStates(3, 0, 0, 0), broken(2, 2, 5, 5)), ElementsAre(0, 1, 2, 5));
+    // One lives within a gap, or before a gap, of the other.
+    EXPECT_THAT(framesJoined(broken(0, 1, 9, 9), drivenStates(7, 4, 5, 0)), ElementsAre(0, 1, 4, 5, 9));
+    EXPECT_THAT(framesJoined(broken(0, 2, 9, 9), drivenStates(7, 1, 3, 0)), ElementsAre(0, 1, 2, 3, 9));
+}
+
 TEST(CorrectionsByHand, HalfOfTheBoxesMustLieOnATrack) {
     const TrackCorrection rejection = rejectionOf(drivenStates(3, 0, 11, 10));  // twelve boxes
     EXPECT_EQ(stateOf(runOf({{5, drivenStates(5, 0, 5, 10)}}), rejection), CorrectionState::applied);

@@ -69,6 +69,26 @@ TEST(ComponentBoxes, AKerbKeepsOnlyItsPartNearTheVectors) {
     EXPECT_EQ(scene.select(options)[0].width, 24);
 }
 
+TEST(ComponentBoxes, AKerbFarFromTheVectorsIsNoBoxAndHidesNone) {
+    Scene scene;
+    scene.binary(cv::Rect(50, 0, 2, 120)).setTo(255);  // found first, from edge to edge
+    scene.binary(cv::Rect(20, 40, 15, 30)).setTo(255);
+    scene.binary(cv::Rect(0, 80, 8, 10)).setTo(255);  // cut off, too
+    scene.binary(cv::Rect(20, 72, 15, 4)).setTo(255);
+    scene.vectors = {{21, 41}, {34, 69}, {25, 55}};
+    GradientOptions options = bare();
+    options.handle_cut = true;
+    options.core_margin_m = 0.5;
+    const auto boxes = scene.select(options);
+    ASSERT_EQ(boxes.size(), 2U);
+    EXPECT_EQ(boxes[0], cv::Rect2d(19.5, 39.5, 15, 30));
+    EXPECT_EQ(boxes[1], cv::Rect2d(19.5, 71.5, 15, 4)) << "whole ones are boxes wherever they are";
+    options.need_support = true;
+    EXPECT_EQ(scene.select(options), std::vector(1, boxes[0])) << "what has no vectors is left out";
+    options.handle_cut = false;
+    EXPECT_EQ(scene.select(options), std::vector(1, boxes[0])) << "the kerb comes first and hides nothing";
+}
+
 TEST(ComponentBoxes, JoinsFrontAndRearOfOneVehicleButNotTwoVehicles) {
     Scene scene;
     scene.binary(cv::Rect(20, 20, 16, 8)).setTo(255);

@@ -181,6 +181,16 @@ TEST(Mser, OnlyWhatReachesFromEdgeToEdgeIsGround) {
     EXPECT_GT(kept_across({0, 18, 29, 24}), 600);
 }
 
+TEST(Mser, AreasNarrowerThanFivePixelsHoldNoRegion) {
+    DetectionOptions options;
+    options.method = DetectionMethod::mser;
+    for (const cv::Size size : {cv::Size(4, 60), cv::Size(60, 4)}) {
+        EXPECT_TRUE(layerOf(options, plainRoi(size), TraceLayer::regions).empty()) << size;
+        const cv::Size wider(std::max(size.width, 5), std::max(size.height, 5));
+        EXPECT_EQ(layerOf(options, plainRoi(wider), TraceLayer::regions).size(), wider);
+    }
+}
+
 TEST(Mser, AreasAreInSquareMetres) {
     // 40 × 16 px at 0.11 m/px are 7.7 m².
     MotionRoi roi = plainRoi({60, 90});
@@ -316,6 +326,9 @@ TEST(SegmentationViews, TakeWhateverRoiComes) {
     EXPECT_EQ(segmentsOf(superpixelSegments(pixel, kContractScale)), 1);
     EXPECT_EQ(segmentsOf(watershedSegments(pixel)), 1);
     EXPECT_EQ(segmentsOf(graphCutSegments(pixel)), 1);
+    MotionRoi outside = roiOf(drivenScene(0.3));
+    outside.inside.setTo(0);
+    EXPECT_EQ(segmentsOf(graphCutSegments(outside)), 1) << "nothing of it is in the picture";
     EXPECT_TRUE(superpixelSegments({}, kContractScale).empty());
     EXPECT_TRUE(graphCutSegments({}).empty());
     EXPECT_TRUE(contourMap({}).empty());

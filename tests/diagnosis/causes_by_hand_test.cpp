@@ -6,6 +6,7 @@
 
 #include "diagnosis/error_cause.h"
 #include "evaluation/evaluation_boxes.h"
+#include "motion/clusters/clustering_wording.h"
 
 namespace eyrie::causes_by_hand_test {
 namespace {
@@ -256,6 +257,111 @@ TEST(CausesByHand, OfSeveralMergedObjectsTwoThatShareAreEnough) {
     EXPECT_EQ(causeWith({&one}), ErrorCause::unknown);
     three.clusters = {6};
     EXPECT_EQ(causeWith({&one, &two, &three}), ErrorCause::segmented_together);
+}
+
+TEST(CausesByHand, WhatFollowsAFrameThatWasNotRegisteredIsExplainedByItEvenWithoutFacts) {
+    Scene scene;
+    const auto causeAfter = [&](bool recently) {
+        ErrorEvidence evidence = scene.evidence();
+        evidence.recently_unregistered = recently;
+        return causeOfFalseAlarm({0, scene.alarm().box, {}, {1}}, evidence);
+    };
+    EXPECT_EQ(causeAfter(true).cause, ErrorCause::unregistered) << "nothing is stored of this frame";
+    EXPECT_EQ(causeAfter(true).text, "");
+    scene.has_facts = true;
+    EXPECT_EQ(causeAfter(true).cause, ErrorCause::unregistered) << "it was registered itself";
+    EXPECT_EQ(causeAfter(false).cause, ErrorCause::unknown);
+    scene.facts.registration = RegistrationState::failed;
+    scene.facts.failure = {.fault = RegistrationFault::too_few_agree, .count = 12, .of = 40};
+    EXPECT_EQ(causeAfter(false).cause, ErrorCause::unregistered);
+    EXPECT_NE(causeAfter(false).text.find("12 of 40"), std::string::npos);
+    scene.alarm().origin = StateOrigin::predicted;
+    EXPECT_EQ(causeAfter(false).cause, ErrorCause::unregistered) << "which is why it was only predicted";
+}
+
+TEST(CausesByHand, WhatDoesNotOverlapAtAllIsNotOffEvenWhereNoOverlapIsNeeded) {
+    Scene scene;
+    scene.truth.push_back(car(0, 2, 500));
+    scene.min_overlap = 0;
+    scene.has_facts = true;
+    scene.facts.kept = {-1, 0};
+    scene.facts.tentative.overlap = scene.facts.dropped.overlap = scene.facts.rejected.overlap = -1;
+    scene.facts.kept.overlap = -1;
+    EXPECT_NE(scene.ofMiss().cause, ErrorCause::box_off);
+}
+
+TEST(CausesByHand, TheLastStageThatHadTheObjectDecides) {
+    Scene scene;
+    scene.truth.push_back(car(0, 2, 500));
+    scene.min_overlap = 0.4;
+    scene.has_facts = true;
+    BoxFacts& facts = scene.facts;
+    const auto expect = [&](ErrorCause cause, const std::string& text) {
+        EXPECT_EQ(scene.ofMiss().cause, cause);
+        EXPECT_EQ(scene.ofMiss().text, text);
+    };
+    expect(ErrorCause::no_corners, "");
+    facts.corners = 2;
+    expect(ErrorCause::too_slow, "2 corners, none counts as moving");
+    facts.motion_vectors = 1;
+    facts.clustering.refusal = ClusterRefusal::not_finite;
+    expect(ErrorCause::not_clustered, "1 motion vectors");
+    facts.by_differences = true;
+    expect(ErrorCause::not_clustered, "1 motion vectors, but " + std::string(kNoMovingArea) + " (motion.method)");
+    facts.clusters = {3};
+    expect(ErrorCause::not_detected, "1 motion vectors in a cluster");
+    facts.registration = RegistrationState::failed;
+    EXPECT_EQ(scene.ofMiss().cause, ErrorCause::unregistered);
+    facts.rejected.overlap = 0.4;
+    facts.removal.rejection = Rejection::duplicate;
+    expect(ErrorCause::removed_duplicate, "removed as a duplicate of another detection");
+    facts.kept.overlap = 0.4;
+    expect(ErrorCause::not_associated, "a detection overlaps it by 0.40");
+    facts.dropped.overlap = 0.4;
+    facts.drop.why = TrackDrop::too_small;
+    EXPECT_EQ(scene.ofMiss().cause, ErrorCause::track_dropped);
+    facts.tentative.overlap = 0.4;
+    facts.unconfirmed.why = TrackDrop::unconfirmed;
+    EXPECT_EQ(scene.ofMiss().cause, ErrorCause::tentative);
+    facts.tentative.overlap = facts.dropped.overlap = facts.kept.overlap = facts.rejected.overlap = 0.39;
+    EXPECT_EQ(scene.ofMiss().cause, ErrorCause::box_off) << "none of them enough, but a detection is near";
+}
+
+TEST(CausesByHand, OfSeveralBoxesAtTheBorderOrOfOtherClassesOneIsEnough) {
+    Scene scene;
+    scene.truth.push_back(car(0, 2, 500));
+    scene.result.push_back(car(0, 9, 500));
+    scene.result.push_back(car(0, 10, 700));
+    scene.result[2].object_class = "bus";
+    scene.frame.other_class_results = {3, 2};
+    EXPECT_EQ(scene.ofMiss().cause, ErrorCause::other_class);
+    EXPECT_EQ(scene.ofMiss().text, "called bus");
+    scene.frame.border_results = {3, 2};
+    EXPECT_EQ(scene.ofMiss().cause, ErrorCause::at_border);
+    scene.truth[1].box.centre.x = 900;
+    EXPECT_EQ(scene.ofMiss().cause, ErrorCause::unknown);
+}
+
+TEST(CausesByHand, OfTheMissedObjectsBesideAnAlarmOneThatTouchesItLessDoesNotEndTheSearch) {
+    Scene scene;
+    scene.truth.push_back(car(0, 2, 315));
+    scene.truth.push_back(car(0, 3, 500));
+    scene.truth.push_back(car(0, 4, 305));
+    scene.match.missed = {1, 2, 3};
+    scene.min_overlap = 0.7;
+    EXPECT_EQ(scene.ofAlarm().text, "object 4: overlap 0.60, 0.70 is needed");
+}
+
+TEST(CausesByHand, ASplitIsOneOfClustersWhereThereAreSeveral) {
+    Scene scene;
+    EXPECT_EQ(causeOfSplit({}, scene.evidence()).cause, ErrorCause::unknown);
+    scene.has_facts = true;
+    EXPECT_EQ(causeOfSplit({}, scene.evidence()).cause, ErrorCause::unknown);
+    scene.facts.clusters = {4};
+    EXPECT_EQ(causeOfSplit({}, scene.evidence()).cause, ErrorCause::segmented_apart);
+    scene.facts.clusters = {4, 2, 7};
+    EXPECT_EQ(causeOfSplit({}, scene.evidence()).cause, ErrorCause::clustered_apart);
+    EXPECT_EQ(causeOfSplit({}, scene.evidence()).text, "3 clusters");
 }
 
 }  // namespace eyrie::causes_by_hand_test

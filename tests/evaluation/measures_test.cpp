@@ -318,6 +318,12 @@ TEST(IdentityAndHota, IgnoredResultsAreNoErrors) {
     EXPECT_EQ(m.identity->idf1, 1);
     EXPECT_NEAR(meanOf(m.hota->hota), 1, 1e-12);
     EXPECT_EQ(m.detection.ignored_results, 5);
+    for (auto& [frame, records] : result) std::reverse(records.begin(), records.end());
+    const Measures turned_round = evaluate(truth, result, at(0.3));
+    EXPECT_EQ(turned_round.identity->idf1, 1) << "the ignored one comes first";
+    EXPECT_EQ(turned_round.identity->idtp, 5);
+    EXPECT_NEAR(meanOf(turned_round.hota->hota), 1, 1e-12);
+    EXPECT_EQ(turned_round.tracking->mota, 1);
 }
 
 TEST(IdentityAndHota, IdentityCountsAddUpToTheDetectionCounts) {
@@ -340,6 +346,26 @@ TEST(Measures, SeveralOverlapsGiveTheSameAsEachAlone) {
             EXPECT_EQ(listed[k].value, listed_alone[k].value) << listed[k].key;
         }
     }
+}
+
+TEST(Measures, AreShownWithAsManyDigitsAsMeanSomething) {
+    const OneObject scene = oneObject({4, 4, 0, 7});
+    std::map<std::string, int> digits;
+    for (const NamedMeasure& measure : listMeasures(evaluate(scene.truth, scene.result, at(0.5))))
+        digits[measure.key] = measure.decimals;
+    for (const char* count :
+         {"ground_truth", "tp", "fp", "fn", "ignored_results", "id_switches", "mostly_tracked", "partially_tracked",
+          "mostly_lost", "fragments", "gt_tracks", "result_tracks", "idtp", "idfp", "idfn"})
+        EXPECT_EQ(digits.at(count), 0) << count;
+    for (const char* share : {"precision", "recall", "f_score", "n_moda", "n_modp", "mota", "motp", "idf1", "hota",
+                              "det_a", "ass_a", "loc_a"})
+        EXPECT_EQ(digits.at(share), 4) << share;
+    for (const char* size : {"centre_error_px", "length_error_px", "length_bias_px", "width_error_px", "width_bias_px",
+                             "heading_error_deg", "axis_error_deg"})
+        EXPECT_EQ(digits.at(size), 2) << size;
+    EXPECT_EQ(digits.at("fp_per_frame"), 3);
+    EXPECT_EQ(digits.at("initialisation_frames"), 1) << "a tenth of a frame";
+    EXPECT_EQ(digits.size(), 36U);
 }
 
 TEST(Measures, NoneSaysThatAWorseResultIsBetter) {

@@ -179,5 +179,25 @@ TEST(ResultDifference, anIdThatChangesInTheFirstOnlyIsOneToo) {
     EXPECT_EQ(found[0].size, 1);
 }
 
+TEST(ResultDifference, whatHasNoIdInOneOfThemHasNoneThatChanges) {
+    BoxesByFrame a;
+    BoxesByFrame b;
+    for (int f = 0; f < 6; ++f) {
+        put(a, f, f < 2 || f == 5 ? std::optional(1) : std::nullopt, 10);
+        put(b, f, f == 1 || f == 3 ? std::nullopt : std::optional(7), 10);
+        put(a, f, 2, 100);
+        put(b, f, std::nullopt, 100);
+        put(a, f, std::nullopt, 200);
+        put(b, f, 8, 200);
+    }
+    EXPECT_TRUE(differencesOf(a, b).empty());
+    put(a, 6, 2, 10);
+    put(b, 6, 7, 10);
+    const auto changed = differencesOf(a, b);
+    ASSERT_EQ(changed.size(), 1U);
+    EXPECT_EQ(changed[0].kind, DifferenceKind::identity);
+    EXPECT_EQ(changed[0].first_frame, 6);
+}
+
 }  // namespace
 }  // namespace eyrie::result_difference_test

@@ -343,5 +343,131 @@ TEST_F(LabelExchange, IdsThatLeaveNoRoomAreNotKept) {
     EXPECT_GT(store.newObjectId(), 20);
 }
 
+/// A car that stands at x in these frames.
+void addTo(LabelFile& labels, int id, double x, FrameIndex first, FrameIndex last) {
+    for (FrameIndex frame = first; frame <= last; ++frame) {
+        LabelBox box;
+        box.frame = frame;
+        box.id = id;
+        box.object_class = "car";
+        box.box = {{x, 40}, 20, 8, 0};
+        labels.boxes[frame].push_back(box);
+    }
+}
+
+/// The frames in which an object is seen, ignored ones with an i, partly hidden ones with a p: "0 1 2p 5i".
+std::string framesOf(const LabelFile& labels, int id) {
+    std::string frames;
+    for (const auto& [frame, records] : labels.boxes) {
+        for (const LabelBox& box : records) {
+            if (box.id != id) continue;
+            frames += (frames.empty() ? "" : " ") + std::to_string(frame);
+            if (box.ignore) frames += "i";
+            if (box.occlusion == Occlusion::partly) frames += "p";
+        }
+    }
+    return frames;
+}
+
+TEST_F(LabelExchange, AnObjectIsSeenAndFlaggedInTheFramesOfTheFileAndNoOthers) {
+    LabelFile labels;
+    addTo(labels, 4, 30, 1, 5);
+    addTo(labels, 4, 40, 8, 8);
+    addTo(labels, 4, 50, 11, 19);
+    addTo(labels, 5, 90, 3, 3);
+    addTo(labels, 6, 120, 0, 19);
+    for (const FrameIndex frame : {3, 4, 12}) labels.boxes[frame][0].occlusion = Occlusion::partly;
+    for (const FrameIndex frame : {13, 14}) labels.boxes[frame][0].ignore = true;
+    for (const double tolerance : {0.5, 0.0}) {
+        ProjectFile project = ProjectFile::create(folder_ / ("p" + std::to_string(tolerance) + ".eyrie"));
+        SequenceRecord sequence = sequence_;
+        sequence.id = ensureSequence(project, sequence);
+        AnnotationStore store(project, sequence.id);
+        store.apply(planImport(labels, sequence, {}, store, tolerance).edit);
+        const LabelFile back = labelsOf(store.annotations(), sequence, {});
+        EXPECT_EQ(framesOf(back, 4), framesOf(labels, 4));
+        EXPECT_EQ(framesOf(back, 4), "1 2 3p 4p 5 8 11 12p 13i 14i 15 16 17 18 19");
+        EXPECT_EQ(framesOf(back, 5), "3");
+        EXPECT_EQ(framesOf(back, 6), framesOf(labels, 6));
+        EXPECT_EQ(store.annotations().objects.at(4).last_frame, 19);
+        EXPECT_EQ(store.annotations().objects.at(5).last_frame, 3);
+        for (const auto& [frame, records] : labels.boxes) {
+            ASSERT_EQ(back.boxes.at(frame).size(), records.size());
+            for (std::size_t i = 0; i < records.size(); ++i)
+                EXPECT_NEAR(back.boxes.at(frame)[i].box.centre.x, records[i].box.centre.x, 0.5) << frame;
+        }
+    }
+}
+
+TEST_F(LabelExchange, OverAGapAnObjectIsOutsideFromTheFrameBehindItsLastBoxOn) {
+    LabelFile labels;
+    addTo(labels, 4, 30, 1, 5);
+    addTo(labels, 4, 40, 8, 19);
+    AnnotationStore store(project_, sequence_.id);
+    const LabelImport plan = planImport(labels, sequence_, {}, store, 0.5);
+    std::vector<FrameIndex> outside;
+    for (const Keyframe& keyframe : plan.edit.objects.at(0).after->keyframes)
+        if (keyframe.outside) outside.push_back(keyframe.frame);
+    EXPECT_THAT(outside, testing::ElementsAre(6));
+}
+
+TEST_F(LabelExchange, ObjectsAsTheFileKeepsThemStayUnlessTheVideoCutsThem) {
+    LabelFile labels;
+    addTo(labels, 4, 30, 0, 19);
+    LabelledObject object;
+    object.id = 4;
+    object.object_class = "car";
+    object.keyframes.resize(1);
+    object.keyframes[0].box = labels.boxes[0][0].box;
+    object.keyframes[0].heading_set = true;
+    object.last_frame = 19;
+    labels.objects = {object};
+    AnnotationStore store(project_, sequence_.id);
+    const LabelImport whole = planImport(labels, sequence_, {}, store, 0);
+    ASSERT_EQ(whole.edit.objects.size(), 1U);
+    EXPECT_EQ(whole.keyframes, 1) << "the file's own";
+    EXPECT_TRUE(whole.notes.empty());
+    addTo(labels, 4, 30, 20, 20);
+    const LabelImport cut = planImport(labels, sequence_, {}, store, 0);
+    EXPECT_EQ(cut.boxes, 20);
+    EXPECT_EQ(cut.keyframes, 20) << "each box that is left";
+    EXPECT_THAT(cut.notes, Contains(HasSubstr("1 boxes lie after the video's last frame, 19")));
+    SequenceRecord unknown_length = sequence_;
+    unknown_length.frame_count = 0;
+    EXPECT_EQ(planImport(labels, unknown_length, {}, store, 0).boxes, 21);
+}
+
+TEST_F(LabelExchange, NumbersAndClassesThatAreThereStay) {
+    AnnotationStore store(project_, sequence_.id);
+    const auto call = [](LabelFile& labels, std::size_t which, const std::string& name) {
+        for (auto& [frame, records] : labels.boxes) records[which].object_class = name;
+    };
+    LabelFile first;
+    addTo(first, 4, 30, 0, 9);
+    call(first, 0, "tram");
+    EXPECT_EQ(planImport(first, sequence_, {}, store, 0.5).edit.name, "Import 1 object");
+    store.apply(planImport(first, sequence_, {}, store, 0.5).edit);
+    EXPECT_TRUE(store.annotations().objects.contains(4)) << "as in the file";
+    LabelFile second;
+    addTo(second, 2, 80, 0, 9);
+    addTo(second, 3, 120, 0, 9);
+    call(second, 0, "tram");
+    call(second, 1, "ferry");
+    const LabelImport plan = planImport(second, sequence_, {}, store, 0.5);
+    EXPECT_EQ(plan.edit.name, "Import 2 objects");
+    store.apply(plan.edit);
+    std::vector<ObjectId> ids;
+    for (const auto& [id, object] : store.annotations().objects) ids.push_back(id);
+    EXPECT_THAT(ids, testing::ElementsAre(4, 5, 6)) << "the next free ones";
+    std::vector<std::string> classes;
+    for (const ObjectClass& entry : store.annotations().classes) classes.push_back(entry.name);
+    EXPECT_THAT(classes, testing::ElementsAre("tram", "ferry"));
+    LabelFile third;
+    addTo(third, 1, 140, 0, 3);
+    call(third, 0, "ferry");
+    EXPECT_FALSE(planImport(third, sequence_, {}, store, 0.5).edit.classes) << "its class is known";
+    EXPECT_TRUE(planImport(LabelFile{}, sequence_, {}, store, 0.5).edit.empty());
+}
+
 }  // namespace
 }  // namespace eyrie::label_exchange_test

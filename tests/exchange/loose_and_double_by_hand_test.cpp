@@ -56,6 +56,29 @@ TEST(LooseBoxesByHand, TheBestPairComesFirst) {
     EXPECT_THAT(linkedIds({boxOf(0, 50), boxOf(0, 56), boxOf(1, 53.5)}), ElementsAre(1, 2, 2));
 }
 
+TEST(LooseBoxesByHand, APairThatIsTakenDoesNotKeepTheOthersApart) {
+    // The best pair is the first object with the first box; the next best has one of them, and then comes another.
+    EXPECT_THAT(linkedIds({boxOf(0, 50), boxOf(0, 56, 42), boxOf(0, 150), boxOf(1, 50), boxOf(1, 160)}),
+                ElementsAre(1, 2, 3, 1, 3));
+    EXPECT_THAT(linkedIds({boxOf(0, 50), boxOf(0, 150), boxOf(1, 50), boxOf(1, 55), boxOf(1, 160)}),
+                ElementsAre(1, 2, 1, 3, 2));
+}
+
+TEST(LooseBoxesByHand, WhatIsNotLinkedIsAnObjectOfOneFrame) {
+    LabelFile labels;
+    for (FrameIndex frame = 0; frame < 3; ++frame) labels.boxes[frame] = {boxOf(frame, 50), boxOf(frame, 100)};
+    const LooseBoxCount count = gatherLooseBoxes(labels, LooseBoxes::single);
+    EXPECT_EQ(count.boxes, 6);
+    EXPECT_EQ(count.objects, 6);
+    for (FrameIndex frame = 0; frame < 3; ++frame) {
+        EXPECT_EQ(labels.boxes[frame][0].id, 2 * frame + 1);
+        EXPECT_EQ(labels.boxes[frame][1].id, 2 * frame + 2);
+    }
+    for (auto& [frame, records] : labels.boxes)
+        for (LabelBox& box : records) box.id.reset();
+    EXPECT_EQ(gatherLooseBoxes(labels, LooseBoxes::link).objects, 2);
+}
+
 TEST(LooseBoxesByHand, NamedAndIgnoredBoxesAreLeftAlone) {
     LabelFile labels;
     labels.boxes[0] = {boxOf(0, 50), boxOf(0, 150), boxOf(0, 250)};

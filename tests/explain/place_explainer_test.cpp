@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-
+#include <cmath>
 #include <map>
 
 #include "chain/recording/run_recorder.h"
@@ -76,6 +76,15 @@ TEST(PlaceExplainer, tellsWhatWasFoundAndWhy) {
     const std::vector<MotionVector> vectors = run.result(35).motion.motion_vectors;
     const auto stored = std::count_if(vectors.begin(), vectors.end(), [](const auto& v) { return !v.isInferred(); });
     EXPECT_NEAR(static_cast<double>(moving), static_cast<double>(stored), 0.2 * static_cast<double>(stored) + 2);
+    // What was searched reaches beyond the cluster, and so does what is told of the search.
+    const OrientedBox roi = explainer.evidence().result.rois.at(0);
+    const OrientedBox end{roi.centre + (roi.length / 2 - 1) * cv::Point2d(std::cos(roi.heading), std::sin(roi.heading)),
+                          1, 1, roi.heading};
+    ASSERT_EQ(intersectionArea(explainer.evidence().result.clusters.at(0).box, end), 0);
+    ASSERT_TRUE(explainer.explain(35, end, {}));
+    EXPECT_FALSE(explainer.evidence().searches.empty());
+    ASSERT_TRUE(explainer.explain(35, {{40, 200}, 4, 4, 0}, {}));
+    EXPECT_TRUE(explainer.evidence().searches.empty());
 }
 
 TEST(PlaceExplainer, tellsWhyTheGroundWasNot) {

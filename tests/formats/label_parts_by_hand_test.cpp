@@ -289,10 +289,13 @@ TEST(ObjectsByHand, NumbersAreRaisedWhereTheyBeginBelowOne) {
 TEST(ObjectsByHand, AnObjectTakesItsMostFrequentClassAndGoesOutsideOverAGapOfOneFrame) {
     LabelFile labels;
     for (const int frame : {0, 1, 3}) labels.boxes[frame] = {boxOf(frame, 1, {{5.0 + frame, 5}, 4, 2, 0}, "van")};
+    for (const int frame : {0, 1}) labels.boxes[frame].push_back(boxOf(frame, 2, {{50, 5}, 4, 2, 0}, "car"));
+    EXPECT_THAT(annotationsOf(labels).notes, IsEmpty()) << "none changes";
     labels.boxes[0][0].object_class = "bus";
     const ImportedLabels imported = annotationsOf(labels);
     const LabelledObject& object = imported.annotations.objects.at(1);
     EXPECT_EQ(object.object_class, "van");
+    EXPECT_EQ(imported.annotations.objects.at(2).object_class, "car");
     EXPECT_THAT(imported.notes, ElementsAre(HasSubstr("1 objects change their class")));
     ASSERT_EQ(object.keyframes.size(), 4U);
     EXPECT_EQ(object.keyframes[2].frame, 2);

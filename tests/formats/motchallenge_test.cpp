@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/geometry/angle.h"
+#include "support/error_message.h"
 #include "support/shared_data.h"
 #include "support/temporary_folder.h"
 
@@ -195,7 +196,14 @@ TEST_F(MotChallenge, SequenceInformation) {
     EXPECT_EQ(sequence.image_size, cv::Size(1024, 540));
     EXPECT_FALSE(readMotSequence(write("[Sequence]\nimWidth=1024\n")).image_size);
     EXPECT_THROW(readMotSequence(write("seqLength=many\n")), Error);
-    EXPECT_THROW(readMotSequence(write("imWidth=-4\n")), Error);
+    for (const char* key : {"imWidth", "imHeight", "seqLength", "frameRate"}) {
+        for (const char* wrong : {"0", "-4", "4x", "x", ""})
+            EXPECT_THAT(
+                test::messageOf(
+                    [&] { readMotSequence(write("[Sequence]\n" + std::string(key) + "=" + wrong + "\n")); }),
+                testing::HasSubstr(":2: " + std::string(key) + " = \"" + wrong + "\", expected a number above 0"));
+        EXPECT_EQ(test::messageOf([&] { readMotSequence(write(std::string(key) + "=1\n")); }), "no error") << key;
+    }
 }
 
 TEST_F(MotChallenge, RealGroundTruthMeetsTheDerivedTable) {

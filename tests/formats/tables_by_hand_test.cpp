@@ -266,6 +266,63 @@ TEST_F(TablesByHand, ViameHasAConfidenceAClassAndAttributes) {
     EXPECT_THAT(written(ours, "w.csv", "viame"), HasSubstr("(atr) rotation -0.0012"));
 }
 
+TEST_F(TablesByHand, ViameIsKnownByAnyOfTheFirstTwentyLines) {
+    const auto known = [&](const std::string& text) {
+        return test::messageOf([&] { EXPECT_EQ(sniffLabelFormat(writeText(folder_ / "s.csv", text)), "viame"); }) ==
+               "no error";
+    };
+    const std::string row = "0,a.png,0,10,20,40,60,1,-1";
+    EXPECT_TRUE(known(row + "\n")) << "a class is not needed";
+    EXPECT_TRUE(known(row + ",car,1\n"));
+    EXPECT_TRUE(known("0,a.png,0,10,20,40,60,,\n")) << "nor confidence and length";
+    EXPECT_FALSE(known("0,a.png,0,10,20,40,60,1\n"));
+    EXPECT_FALSE(known("x,a.png,0,10,20,40,60,1,-1\n"));
+    for (const char* wrong :
+         {"0,a.png,x,10,20,40,60,1,-1\n", "0,a.png,0,x,20,40,60,1,-1\n", "0,a.png,0,10,20,40,,1,-1\n",
+          "0,a.png,0,10,20,40,60,x,-1\n", "0,a.png,0,10,20,40,60,1,x\n"})
+        EXPECT_FALSE(known(wrong)) << wrong;
+    const auto behind = [&](int lines, const std::string& line) {
+        std::string text;
+        for (int i = 0; i < lines; ++i) text += line;
+        return known(text + row + "\n");
+    };
+    EXPECT_TRUE(behind(19, "# said\n"));
+    EXPECT_FALSE(behind(20, "# said\n"));
+    EXPECT_TRUE(behind(300, " \t\n")) << "empty lines say nothing";
+    EXPECT_TRUE(behind(19, "0,\"a broken row\n")) << "which is left out";
+    // Without a head, numbers alone could be a table of anything.
+    EXPECT_FALSE(known("0,1,0,10,20,40,60,1,-1,5\n"));
+    EXPECT_TRUE(known("# head\n0,1,0,10,20,40,60,1,-1,5\n"));
+}
+
+TEST_F(TablesByHand, ViamesFrameRateStandsInItsHead) {
+    const auto rateOf = [&](const std::string& head) {
+        return read("r.csv", head + "\n0,a.png,0,10,20,40,60,1,-1,car,1\n", "viame").frame_rate_hz;
+    };
+    EXPECT_EQ(rateOf("# metadata,fps: 12.5"), 12.5);
+    EXPECT_EQ(rateOf("# metadata,Fps: 12.5,exported_by: x"), 12.5);
+    EXPECT_EQ(rateOf("# metadata,fps:5\r"), 5);
+    EXPECT_EQ(rateOf("# Fps: 3, fps: 4"), 4);
+    for (const char* none : {"# metadata,fps: 0", "# metadata,fps: -5", "# metadata,fps: x", "# metadata,fps:", "# x"})
+        EXPECT_FALSE(rateOf(none)) << none;
+}
+
+TEST_F(TablesByHand, MotIsKnownByItsFirstLine) {
+    const auto formatOf = [&](const std::string& text) { return sniffLabelFormat(writeText(folder_ / "s.txt", text)); };
+    for (const char* more : {"", ",3", ",3,0.5"}) {
+        const std::string row = "1,7,10,20,30,40,1" + std::string(more) + "\n";
+        EXPECT_EQ(formatOf(row), *more == '\0' ? "mot-result" : "mot") << row;
+        EXPECT_EQ(formatOf(row + "the end\n"), *more == '\0' ? "mot-result" : "mot") << row;
+    }
+    EXPECT_EQ(formatOf("1,-1,10,20,30,40\n"), "mot-result");
+    for (const char* other : {"0,7,10,20,30,40,1\n", "1,7,10,20,30\n", "1,7,10,20,30,40,1,3,1,1,1\n",
+                              "1,7,10,20,30,40,1,\n", "1,7,10,20,30,40,\"1\"\n", "1,7,10,20,30,40,\"1\n"})
+        EXPECT_THAT(messageOf([&] { formatOf(other); }), HasSubstr("matches no known format")) << other;
+    EXPECT_EQ(formatOf("1,7,10,20,30,40,0.5,-1,-1,-1\n"), "mot-result");
+    EXPECT_THAT(messageOf([&] { formatOf("1 7 10 20 30 40 1\n1,7,10,20,30,40,1,3\n"); }),
+                HasSubstr("matches no known format"));
+}
+
 TEST_F(TablesByHand, AnyTwoColumnsOfAnAxisGiveTheSameBox) {
     const std::map<std::string, std::string> across{{"x1", "10"}, {"x2", "40"}, {"cx", "25"}, {"w", "30"}};
     const std::map<std::string, std::string> down{{"y1", "20"}, {"y2", "60"}, {"cy", "40"}, {"h", "40"}};

@@ -152,6 +152,29 @@ TEST(ControlFit, AMirrorImageIsNoPicture) {
     EXPECT_FALSE(GeoReference::byControl(market(points), &why).known());
     ASSERT_EQ(why.size(), 1U);
     EXPECT_THAT(why[0], testing::HasSubstr("mirror image"));
+    // However the camera is turned, and on whichever side of the horizon the picture's first pixel lies.
+    for (const double turn : {0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0}) {
+        for (const double steep : {0.0, 0.004, -0.02}) {
+            const auto placed = [&](double side) {
+                std::vector<ControlPoint> laid;
+                for (const cv::Point2d px : {cv::Point2d(110, 60), {190, 62}, {185, 95}, {108, 90}}) {
+                    const double depth = std::abs(1 + steep * px.x);
+                    const cv::Point2d ground = cv::Point2d(side * px.x, -px.y) / depth;
+                    laid.push_back(
+                        {0, px,
+                         LocalPlane(kMarket).placeOf({std::cos(turn) * ground.x - std::sin(turn) * ground.y,
+                                                      std::sin(turn) * ground.x + std::cos(turn) * ground.y})});
+                }
+                why.clear();
+                return fitControlPoints(laid, {}, LocalPlane(kMarket), &why).size();
+            };
+            // Beyond a horizon the picture is turned over.
+            const double upright = 1 + steep * 110 > 0 ? 1 : -1;
+            EXPECT_EQ(placed(upright), 1U) << turn << ' ' << steep;
+            EXPECT_EQ(placed(-upright), 0U) << turn << ' ' << steep;
+            EXPECT_THAT(why, testing::ElementsAre(testing::HasSubstr("mirror image"))) << turn << ' ' << steep;
+        }
+    }
 }
 
 TEST(ControlFit, AHorizonInThePictureSaysNothingAndWhy) {
@@ -212,6 +235,26 @@ TEST(ProjectiveMapByHand, IsScaledToOneAndPositiveWhereThePointsLie) {
     ASSERT_TRUE(beyond);
     const cv::Matx33d ahead{1, 0, 0, 0, 1, 0, 0.01, 0, -1};
     for (int i = 0; i < 9; ++i) EXPECT_NEAR(beyond->val[i], ahead.val[i], 1e-6) << i;
+}
+
+TEST(ProjectiveMapByHand, HowFarPointsMustBeOffALineDoesNotDependOnHowManyThereAre) {
+    const auto mapped = [](double off_px, int times) {
+        std::vector<cv::Point2d> image, plane;
+        for (int i = 0; i < times; ++i)
+            for (const cv::Point2d& px : {cv::Point2d(10, 50), {70, 50 + off_px}, {130, 50 - off_px}, {190, 50}}) {
+                image.push_back(px);
+                plane.push_back(px / 2);
+            }
+        return projectiveMap(image, plane);
+    };
+    for (const int times : {1, 25}) {
+        EXPECT_FALSE(mapped(0, times)) << times;
+        EXPECT_FALSE(mapped(0.2, times)) << times << ": any small error would turn the plane about the line";
+        const auto map = mapped(0.5, times);
+        ASSERT_TRUE(map) << times;
+        const cv::Matx33d half{0.5, 0, 0, 0, 0.5, 0, 0, 0, 1};
+        for (int i = 0; i < 9; ++i) EXPECT_NEAR(map->val[i], half.val[i], 1e-6) << i;
+    }
 }
 
 namespace {

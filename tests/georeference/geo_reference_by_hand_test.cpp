@@ -1,6 +1,7 @@
 // Where a flight lies on the earth, by figures that follow from how it was made up.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <vector>
@@ -111,10 +112,16 @@ TEST(GeoReferenceByHand, AStatementIsCarriedForFiveSeconds) {
     for (const FrameIndex frame : {50, 99, 150}) {
         EXPECT_LT(cv::norm(astray(reference, frame)), 0.05) << frame;
         EXPECT_TRUE(reference.elevationOf(frame)) << frame;
+        EXPECT_NEAR(reference.northOf(frame).value_or(0), 270, 0.1) << frame;
+        EXPECT_NEAR(std::abs(std::remainder(reference.courseOf(frame).value_or(90), 360)), 0, 0.1) << frame;
+        EXPECT_NEAR(reference.gsdOf(frame).value_or(0), kPixel_m, 1e-3) << frame;
     }
     for (const FrameIndex frame : {49, 151}) {
         EXPECT_FALSE(reference.placeOf(frame, {120, 40})) << frame;
         EXPECT_FALSE(reference.elevationOf(frame)) << frame;
+        EXPECT_FALSE(reference.northOf(frame)) << frame;
+        EXPECT_FALSE(reference.courseOf(frame)) << frame;
+        EXPECT_FALSE(reference.gsdOf(frame)) << frame;
     }
 }
 

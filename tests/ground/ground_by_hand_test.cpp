@@ -171,6 +171,49 @@ TEST(GroundByHand, OfPointsNearEachOtherAWayHasOne) {
     EXPECT_THAT(frames, ElementsAre(0, 2, 3, 4)) << "5 further, hypot(3, 4) further, and the last";
 }
 
+TEST(GroundByHand, EveryVehicleHasItsOwnWay) {
+    const GroundSheets sheets(test::footageOf(still, 9), 0);
+    const auto paths = pathsOn(sheets, {trackThrough(3, {{0, 60}, {10, 60}}), trackThrough(5, {{0, 80}, {10, 90}})}, 5);
+    ASSERT_THAT(paths.at(0), SizeIs(2));
+    for (const std::size_t i : {0U, 1U}) {
+        const SheetPath& path = paths[0][i];
+        EXPECT_EQ(path.track, i == 0 ? 3 : 5);
+        ASSERT_THAT(path.points, SizeIs(2));
+        EXPECT_EQ(path.points[0].at, cv::Point2d(0, i == 0 ? 60 : 80));
+        EXPECT_EQ(path.points[1].at, cv::Point2d(10, i == 0 ? 60 : 90));
+    }
+}
+
+TEST(GroundByHand, APlaceIsSeenAgainWhenTheCameraComesBack) {
+    // 10 px a frame to the right and back: a place at 95 is in the picture until the frame 9 and from 31 on.
+    const View view = [](double frame) {
+        return cv::Matx33d(1, 0, -10 * (frame <= 20 ? frame : 40 - frame), 0, 1, 0, 0, 0, 1);
+    };
+    const GroundSheets sheets(test::footageOf(view, 40), 0);
+    EXPECT_THAT(placeHistory(sheets, {}, 0, {95, 60}, 1).seen, ElementsAre(FrameSpan{0, 9}, FrameSpan{31, 40}));
+}
+
+TEST(GroundByHand, APlaceFarFromTheAnchorIsFoundInATiltedView) {
+    // Seen at an angle from the frame 1 on, and so far away that the anchor's horizon would lie between.
+    for (const bool sideways : {true, false}) {
+        const View view = [&](double frame) {
+            const double k = frame > 0 ? -1e-3 : 0;
+            const cv::Matx33d tilt(1, 0, 0, 0, 1, 0, sideways ? 0 : k, sideways ? k : 0, 1);
+            return tilt * cv::Matx33d(1, 0, sideways ? -15 * frame : 0, 0, 1, sideways ? 0 : -15 * frame, 0, 0, 1);
+        };
+        const GroundSheets sheets(test::footageOf(view, 100), 0);
+        ASSERT_EQ(sheets.count(), 1);
+        const cv::Point2d place = sideways ? cv::Point2d(1540, 30) : cv::Point2d(30, 1540);
+        const auto found = sheets.inImage(100, place);
+        ASSERT_TRUE(found) << sideways;
+        EXPECT_NEAR(sideways ? found->x : found->y, 40 / 0.97, 1e-6);
+        EXPECT_NEAR(sideways ? found->y : found->x, 30 / 0.97, 1e-6);
+        EXPECT_FALSE(sheets.inImage(0, place));
+        const cv::Point2d behind = sideways ? cv::Point2d(1540, 5000) : cv::Point2d(5000, 1540);
+        EXPECT_FALSE(sheets.inImage(100, behind));
+    }
+}
+
 TEST(GroundByHand, AStoryTellsHowFarAVehicleHasDriven) {
     const test::DrivenTracks scene = carsAt({60});
     StoredTracks run;

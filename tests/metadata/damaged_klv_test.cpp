@@ -54,7 +54,30 @@ TEST(DamagedKlv, SetsWithinSetsAtFaultAreReadSoOftenAndNoMore) {
     EXPECT_LT(read, 8 * kBytes);
 }
 
+/// A set whose checksum has so many bytes, the sum in the last two, and is followed by so many bytes of an item.
+KlvBytes withChecksumOf(std::uint8_t bytes, std::uint8_t following) {
+    KlvBytes set = test::localSetKey();
+    append(set, {static_cast<std::uint8_t>(6 + 2 + bytes + following), 13, 4, 0x20, 0, 0, 0, 1, bytes});
+    std::uint32_t sum = 0;
+    for (std::size_t i = 0; i < set.size(); ++i) sum += static_cast<std::uint32_t>(set[i]) << (i % 2 == 0 ? 8 : 0);
+    append(set, test::bigEndian(sum & 0xFFFF, bytes));
+    if (following > 0) append(set, {3, static_cast<std::uint8_t>(following - 2)});
+    set.resize(set.size() + (following > 0 ? following - 2U : 0U), 'x');
+    return set;
+}
+
 }  // namespace
+
+TEST(DamagedKlv, aChecksumHasTwoBytesAndComesLast) {
+    EXPECT_EQ(collected({{withChecksumOf(2, 0)}}).packets.size(), 1U);
+    for (const KlvBytes& set : {withChecksumOf(2, 2), withChecksumOf(2, 7), withChecksumOf(1, 0), withChecksumOf(3, 0),
+                                withChecksumOf(4, 0), withChecksumOf(4, 3)}) {
+        const MetadataStream stream = collected({{set}, {goodSet(1)}});
+        EXPECT_EQ(stream.packets.size(), 1U) << set.size();
+        EXPECT_EQ(faultsOf(stream, klv::Fault::wrong_checksum), 1) << set.size();
+        EXPECT_EQ(stream.damaged(), 1) << set.size();
+    }
+}
 
 TEST(DamagedKlv, aWrongChecksumCostsOneSet) {
     KlvBytes bad = goodSet(1);
@@ -132,6 +155,40 @@ TEST(DamagedKlv, aSetMayComeInPieces) {
         {{KlvBytes(set.begin(), set.begin() + half)}, {KlvBytes(set.begin() + half, set.end())}, {goodSet(1)}});
     EXPECT_EQ(stream.packets.size(), 2U);
     EXPECT_EQ(stream.damaged(), 0);
+}
+
+TEST(DamagedKlv, aPacketThatEndsASetMayBeginTheNext) {
+    const KlvBytes set = goodSet(0);
+    for (std::size_t rest = 1; rest < set.size(); ++rest) {
+        if (rest == 5) continue;  // as long as the header of a cell
+        const KlvBytes end(set.end() - static_cast<std::ptrdiff_t>(rest), set.end());
+        const MetadataStream stream = collected({{cut(set, set.size() - rest)}, {joined({end, goodSet(1)})}});
+        EXPECT_EQ(stream.packets.size(), 2U) << rest;
+        EXPECT_EQ(stream.damaged(), 0) << rest;
+    }
+}
+
+TEST(DamagedKlv, aPieceWithinASetMayLookLikeTheBeginningOfAKey) {
+    // A text item holds what every key begins with; a packet that is shorter than a key begins no set.
+    const KlvBytes key = test::localSetKey();
+    for (std::size_t looks = 1; looks < key.size(); ++looks) {
+        const KlvBytes begin = cut(key, looks);
+        const KlvBytes set = LocalSetWriter().item(3, begin).angle(13, 45, 90).bytes();
+        const std::size_t at = key.size() + 1 + 2;
+        const KlvBytes after(set.begin() + static_cast<std::ptrdiff_t>(at + looks), set.end());
+        const MetadataStream stream = collected({{cut(set, at)}, {begin}, {after}, {goodSet(1)}});
+        EXPECT_EQ(stream.packets.size(), 2U) << looks;
+        EXPECT_EQ(stream.damaged(), 0) << looks;
+    }
+}
+
+TEST(DamagedKlv, aSetThatIsCutOffInItsCellDoesNotTakeTheNextWithIt) {
+    const auto cell = [](const KlvBytes& bytes) {
+        return joined({{0x00, 1, 0xDF, 0x00, static_cast<std::uint8_t>(goodSet().size())}, bytes});
+    };
+    const MetadataStream stream = collected({{cell(cut(goodSet(0), 30))}, {cell(goodSet(1))}});
+    EXPECT_EQ(stream.packets.size(), 1U);
+    EXPECT_EQ(faultsOf(stream, klv::Fault::cut_off), 1);
 }
 
 TEST(DamagedKlv, headersOfAccessUnitCellsArePassedOver) {

@@ -69,6 +69,34 @@ TEST(MetadataFiles, bothCarriagesOfATransportStreamAreRead) {
     }
 }
 
+TEST(MetadataFiles, eachTrackOfAFileIsAStreamOfItsOwn) {
+    const test::TemporaryFolder folder;
+    TransportStreamWriter writer(TransportStreamWriter::Carriage::asynchronous, 2);
+    for (int i = 0; i < 20; ++i) {
+        writer.set(LocalSetWriter().time(1'000'000U * static_cast<unsigned>(i + 1)).bytes(), 90'000 * (i + 1));
+        writer.set(LocalSetWriter().angle(13, i, 90).bytes(), 90'000 * (i + 1), 0x0102);
+        writer.set(LocalSetWriter().angle(13, -i, 90).bytes(), 90'000 * (i + 1) + 45'000, 0x0102);
+    }
+    writer.save(folder / "two.ts");
+    const MetadataRecording recording = readMetadata(folder / "two.ts");
+    ASSERT_EQ(recording.streams.size(), 2U);
+    EXPECT_TRUE(recording.foreign_tracks.empty());
+    const MetadataStream& times = recording.streams[0];
+    const MetadataStream& places = recording.streams[1];
+    EXPECT_EQ(times.track.id, 0x101);
+    EXPECT_EQ(places.track.id, 0x102);
+    EXPECT_NE(times.track.number, places.track.number);
+    EXPECT_EQ(times.track.codec, "klv");
+    EXPECT_EQ(places.track.codec, "klv");
+    EXPECT_EQ(times.packets.size(), 20U);
+    EXPECT_EQ(places.packets.size(), 40U);
+    EXPECT_EQ(times.damaged() + places.damaged(), 0);
+    EXPECT_EQ(times.places(), 0);
+    EXPECT_EQ(places.places(), 40);
+    EXPECT_EQ(places.without_time, 40);
+    EXPECT_EQ(recording.mostUseful(), 1);
+}
+
 TEST(MetadataFiles, examplesOfTheStandardInH264) {
     EYRIE_NEED_SHARED_DATA("klv");
     for (const char* name : {"h264_klv.ts", "mpeg2_klv.ts"}) {

@@ -3,20 +3,24 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <map>
 
 #include "support/klv_writer.h"
 
 namespace eyrie::test {
 
-/// A transport stream of one program that carries nothing but KLV, written byte by byte after ISO/IEC 13818-1.
+/// A transport stream of one program that carries nothing but KLV, in one track or asynchronously in two, written byte
+/// by byte after ISO/IEC 13818-1.
 class TransportStreamWriter {
  public:
     enum class Carriage { asynchronous, synchronous };
 
-    explicit TransportStreamWriter(Carriage carriage) : carriage_(carriage) {
+    explicit TransportStreamWriter(Carriage carriage, int tracks = 1) : carriage_(carriage) {
         section(0x0000, bytesOfHex("00b00d0001c100000001e100"));
-        // PMT: clock and stream on PID 0x101; descriptors say KLVA.
-        if (carriage == Carriage::asynchronous) {
+        // PMT: clock and stream on PID 0x101; descriptors say KLVA. A second track is on PID 0x102.
+        if (tracks == 2) {
+            section(0x0100, bytesOfHex("02b0230001c10000e101f00006e101f00605044b4c564106e102f00605044b4c5641"));
+        } else if (carriage == Carriage::asynchronous) {
             section(0x0100, bytesOfHex("02b0180001c10000e101f00006e101f00605044b4c5641"));
         } else {
             section(0x0100, bytesOfHex("02b01d0001c10000e101f00015e101f00b26090100ff4b4c5641000f"));
@@ -24,7 +28,7 @@ class TransportStreamWriter {
     }
 
     /// One set in one PES packet; a synchronous one gets the header of its cell.
-    void set(const KlvBytes& klv, std::int64_t stamp_90khz) {
+    void set(const KlvBytes& klv, std::int64_t stamp_90khz, unsigned pid = 0x0101) {
         KlvBytes payload;
         if (carriage_ == Carriage::synchronous) {
             payload = {0x00, static_cast<std::uint8_t>(sequence_++), 0xDF};
@@ -39,7 +43,7 @@ class TransportStreamWriter {
         append(pes, bigEndian((((pts >> 15) & 0x7FFF) << 1) | 1, 2));
         append(pes, bigEndian(((pts & 0x7FFF) << 1) | 1, 2));
         append(pes, payload);
-        packets(0x0101, pes);
+        packets(pid, pes);
     }
 
     void save(const std::filesystem::path& path) const {
@@ -67,7 +71,7 @@ class TransportStreamWriter {
             KlvBytes packet{0x47, static_cast<std::uint8_t>((at == 0 ? 0x40 : 0x00) | (pid >> 8)),
                             static_cast<std::uint8_t>(pid)};
             const std::size_t stuffing = 184 - count;
-            packet.push_back(static_cast<std::uint8_t>((stuffing > 0 ? 0x30 : 0x10) | (counter_++ & 0x0F)));
+            packet.push_back(static_cast<std::uint8_t>((stuffing > 0 ? 0x30 : 0x10) | (counters_[pid]++ & 0x0F)));
             if (stuffing > 0) packet.push_back(static_cast<std::uint8_t>(stuffing - 1));
             if (stuffing > 1) {
                 packet.push_back(0x00);
@@ -83,7 +87,7 @@ class TransportStreamWriter {
     Carriage carriage_;
     KlvBytes bytes_;
     unsigned sequence_ = 0;
-    unsigned counter_ = 0;
+    std::map<unsigned, unsigned> counters_;  ///< of packets, by PID
 };
 
 }  // namespace eyrie::test

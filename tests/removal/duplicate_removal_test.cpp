@@ -49,6 +49,25 @@ TEST(DuplicateRemoval, KeepsNeighboursThatOverlapALittle) {
     EXPECT_EQ(kept(removeDuplicates(queue, motion, loose, kScale)), 1);
 }
 
+TEST(DuplicateRemoval, BoxesThatTouchAtTheirFarthestAreCompared) {
+    const FrameMotion motion = sparseMotion();
+    DuplicateRemovalOptions options = DuplicateRemovalOptions::thesis();
+    options.threshold = 0.01;
+    // 60 × 4 px, one behind the other: the second begins 2 px before the first ends.
+    EXPECT_EQ(kept(removeDuplicates({detection(100, 100, 60, 4), detection(158, 100, 60, 4)}, motion, options, kScale)),
+              1);
+    EXPECT_EQ(kept(removeDuplicates({detection(100, 100, 60, 4), detection(161, 100, 60, 4)}, motion, options, kScale)),
+              2);
+    // Corner to corner, which is as far apart as boxes may touch; side by side; and a small one at the end of a long
+    // one.
+    EXPECT_EQ(
+        kept(removeDuplicates({detection(100, 100, 20, 20), detection(117, 117, 20, 20)}, motion, options, kScale)), 1);
+    EXPECT_EQ(kept(removeDuplicates({detection(100, 100, 4, 60), detection(100, 158, 4, 60)}, motion, options, kScale)),
+              1);
+    EXPECT_EQ(kept(removeDuplicates({detection(100, 100, 60, 4), detection(131, 100, 6, 4)}, motion, options, kScale)),
+              1);
+}
+
 TEST(DuplicateRemoval, ComparesVelocityAndHeading) {
     const FrameMotion motion = sparseMotion();
     const Detection whole = detection(100, 100, 18, 7, {1, 0});

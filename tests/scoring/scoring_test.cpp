@@ -7,12 +7,15 @@
 
 #include "core/error.h"
 #include "store/labels/annotation_store.h"
+#include "support/error_message.h"
 #include "support/temporary_folder.h"
 #include "support/written_run.h"
 
 namespace eyrie::scoring_test {
 namespace {
 
+using testing::AnyOf;
+using testing::Each;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -152,8 +155,37 @@ TEST_F(ScoringTest, errorsOfATableOfNumbersAreToldByTheirLine) {
             EXPECT_THAT(messageOf("\n \t\r\n \t" + row, as_result), HasSubstr("broken.txt:3:")) << row;
         }
         for (const std::string other : {"about,1,41.5\n", "12 cars\n", "-1,1,41.5,here\n", ":1,2\n", "\n\n", ""})
-            EXPECT_THAT(messageOf(other, as_result), Not(HasSubstr("is not a number"))) << other;
+            EXPECT_THAT(messageOf(other, as_result), AnyOf(HasSubstr("matches no known format"), HasSubstr("is empty")))
+                << other;
     }
+}
+
+TEST_F(ScoringTest, foldersAndMissingFilesAreToldAsSuch) {
+    const auto messagesOf = [&](const std::filesystem::path& file) {
+        return std::vector{test::messageOf([&] { readGroundTruth({file}, std::nullopt); }),
+                           test::messageOf([&] { readResultBoxes({file}); })};
+    };
+    std::filesystem::create_directories(folder / "pictures");
+    EXPECT_THAT(messagesOf(folder / "pictures"), Each(HasSubstr("pictures: the folder matches no known label format")));
+    EXPECT_THAT(messagesOf(folder / "absent.txt"), Each(HasSubstr("absent.txt")));
+    EXPECT_THAT(messagesOf(folder / "absent.txt"), Each(Not(HasSubstr("format"))));
+}
+
+TEST_F(ScoringTest, howATruthWasReadIsToldWhereThatIsNotPlain) {
+    const std::string table = "1,1,41.5,36.5,20,10,1,3,1\n";
+    EXPECT_THAT(readGroundTruth({write("gt.txt", table)}, std::nullopt).remarks, IsEmpty());
+    // A file beside it was read, too.
+    std::filesystem::create_directories(folder / "clip");
+    const auto beside = write("clip/gt.txt", table);
+    write("clip/seqinfo.ini", "imWidth=320\nimHeight=240\n");
+    EXPECT_THAT(readGroundTruth({beside}, std::nullopt).remarks,
+                ElementsAre(beside.string() + " was read as MOTChallenge ground truth together with seqinfo.ini"));
+    // Something was odd.
+    const auto odd = write("odd.csv",
+                           "1,a.png,0,10,10,30,20,1,-1,car,1,(note) seen twice\n"
+                           "1,b.png,1,10,10,30,20,1,-1,car,1\n");
+    EXPECT_THAT(readGroundTruth({odd}, std::nullopt).remarks,
+                ElementsAre(odd.string() + " was read as VIAME CSV (DIVE)", HasSubstr("1 entry of other kinds")));
 }
 
 TEST_F(ScoringTest, aRunCoversTheFramesThatItHasDone) {

@@ -68,11 +68,10 @@ std::vector<FrameIndex> framesAround(const LabelledObject& object, FrameIndex fr
     return frames;
 }
 
+/// The reference has an extent.
 double growthOf(const OrientedBox& box, const OrientedBox& reference) {
-    const double area = box.length * box.width;
-    const double reference_area = reference.length * reference.width;
-    if (area <= 0 || reference_area <= 0) return 1;
-    return std::clamp(std::sqrt(area / reference_area), 0.25, 4.0);
+    if (box.area() <= 0) return 1;
+    return std::clamp(std::sqrt(box.area() / reference.area()), 0.25, 4.0);
 }
 
 /// The part of a wider cut that looks most like the reference inside `object`; empty where none does.

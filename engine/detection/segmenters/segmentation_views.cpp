@@ -72,8 +72,7 @@ cv::Mat graphCutSegments(const MotionRoi& roi) {
     mask(cv::Rect(own) & whole).setTo(cv::GC_PR_FGD);
     cv::rectangle(mask, whole, cv::Scalar(cv::GC_BGD), 1);
     mask.setTo(cv::GC_BGD, roi.inside == 0);
-    const bool both = cv::countNonZero(mask == cv::GC_PR_FGD) > 0 && cv::countNonZero(mask != cv::GC_PR_FGD) > 0;
-    if (!both) return oneSegment(roi.image);
+    if (cv::countNonZero(mask == cv::GC_PR_FGD) == 0) return oneSegment(roi.image);
     cv::Mat colour;
     cv::cvtColor(roi.image, colour, cv::COLOR_GRAY2BGR);
     cv::Mat background_model;

@@ -8,10 +8,9 @@ PlacedTracks::PlacedTracks(const LabelFile& labels, bool timed) : labels_(labels
     for (const auto& [frame, boxes] : labels.boxes) {
         const auto utc = world.utc_us ? world.utc_us(frame) : std::nullopt;
         for (const LabelBox& box : boxes) {
-            if (!box.id) continue;
             const auto place = world.place(frame, box.box.centre);
             if (place && (utc || !timed))
-                tracks_[*box.id].push_back({&box, *place, utc});
+                tracks_[box.id.value()].push_back({&box, *place, utc});
             else
                 ++without_place_;
         }

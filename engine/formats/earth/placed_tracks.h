@@ -16,7 +16,7 @@ struct PlacedBox {
 /// Tracks as far as their places are known (`timed`: their times, too).
 class PlacedTracks {
  public:
-    /// `labels` must have a world with places and outlive it.
+    /// `labels` must have a world with places and outlive it; each box has an id (LabelFormat::needs_id).
     explicit PlacedTracks(const LabelFile& labels, bool timed = false);
 
     /// By ascending id; tracks without any place are left out.

@@ -109,8 +109,9 @@ bool looksLikeDota(const FileHead& head) {
         }
     }
     const char separator = line.find(',') == std::string::npos ? ' ' : ',';
-    const std::size_t fields = line.empty() ? 0 : TextLine(head.path, 1, line, separator).size();
-    return leadingNumbers(line, separator).size() == 8 && (fields == 9 || fields == 10);
+    if (leadingNumbers(line, separator).size() != 8) return false;
+    const std::size_t fields = TextLine(head.path, 1, line, separator).size();
+    return fields == 9 || fields == 10;
 }
 
 }  // namespace

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "core/error.h"
 #include "formats/format_functions.h"
 #include "formats/mot/mot_tree.h"
@@ -82,11 +84,13 @@ void writeResult(const LabelStream& labels, const std::filesystem::path& path, c
     report.files.push_back(path);
 }
 
+/// Columns of the first line, if it holds numbers and nothing else, that of the frame from 1 on; else 0.
 std::size_t columnsOf(const FileHead& head) {
-    if (head.lines.empty() || head.lines.front().find(',') == std::string::npos) return 0;
-    const std::vector<double> numbers = leadingNumbers(head.lines.front(), ',');
-    const std::size_t fields = TextLine(head.path, 1, head.lines.front()).size();
-    return numbers.size() == fields && numbers[0] >= 1 ? fields : 0;
+    if (head.lines.empty()) return 0;
+    const std::string& line = head.lines.front();
+    const std::vector<double> numbers = leadingNumbers(line, ',');
+    const auto commas = static_cast<std::size_t>(std::count(line.begin(), line.end(), ','));
+    return numbers.size() == commas + 1 && numbers[0] >= 1 ? numbers.size() : 0;
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kSmallestArea = 1;  // px²
 
-/// Whether a map of one frame can be trusted near a point: finite, not mirrored, no leap in scale.
+/// Whether a map of one frame can be trusted near a point: finite, no leap in scale.
 bool isPlausible(const Homography& map, cv::Point2d point) {
     const double scale = map.scaleAt(point);
     const cv::Point2d mapped = map.apply(point);
