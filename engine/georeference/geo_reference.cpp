@@ -209,7 +209,7 @@ std::optional<cv::Matx22d> GeoReference::metresPerPixel(FrameIndex frame) const 
 
 std::optional<double> GeoReference::northOf(FrameIndex frame) const {
     const auto metres = metresPerPixel(frame);
-    if (!metres) return std::nullopt;
+    if (!metres || cv::determinant(*metres) == 0) return std::nullopt;
     const cv::Vec2d north = metres->inv() * cv::Vec2d(0, 1);
     return degreesFromRadians(std::atan2(north[1], north[0]));
 }
