@@ -59,12 +59,10 @@ void takeMostFrequent(DiagnosedError& diagnosed, const std::vector<CauseHere>& c
     diagnosed.frames_of_cause = counts[static_cast<std::size_t>(diagnosed.cause)];
     // The middle one of those with the cause is typical.
     int left = diagnosed.frames_of_cause / 2;
-    for (std::size_t i = 0; i < causes.size(); ++i) {
-        if (causes[i].cause != diagnosed.cause || left-- > 0) continue;
-        diagnosed.place = i;
-        diagnosed.text = causes[i].text;
-        break;
-    }
+    std::size_t typical = 0;
+    while (causes[typical].cause != diagnosed.cause || left-- > 0) ++typical;
+    diagnosed.place = typical;
+    diagnosed.text = causes[typical].text;
 }
 
 /// Causes of switches and fragments follow from the other errors and from who found what.

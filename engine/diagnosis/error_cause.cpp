@@ -108,7 +108,7 @@ CauseHere stageThatLost(const BoxFacts& facts, const ErrorEvidence& evidence) {
     if (facts.kept.overlap >= needed)
         return {ErrorCause::not_associated, "a detection overlaps it by " + number(facts.kept.overlap, 2)};
     if (facts.rejected.overlap >= needed) return removedBy(facts);
-    if (facts.kept.overlap >= kNearMiss * needed && facts.kept.overlap > 0)
+    if (facts.kept.overlap >= kNearMiss * needed)
         return {ErrorCause::box_off, "detection: " + offText(facts.kept.overlap, needed)};
     if (facts.registration == RegistrationState::failed)
         return {ErrorCause::unregistered, describe(facts.failure) + by(parameterOf(facts.failure))};
@@ -214,7 +214,7 @@ CauseHere causeOfMiss(const ErrorPlace& place, const ErrorEvidence& evidence) {
     for (const int index : evidence.frame.other_class_results) {
         if (found(index)) return {ErrorCause::other_class, "called " + at(evidence.result, index).object_class};
     }
-    if (free.overlap > 0 && free.overlap >= kNearMiss * evidence.min_overlap)
+    if (free.overlap >= kNearMiss * evidence.min_overlap)
         return {ErrorCause::box_off, offText(free.overlap, evidence.min_overlap)};
     if (evidence.facts == nullptr) return {};
     return stageThatLost(*evidence.facts, evidence);

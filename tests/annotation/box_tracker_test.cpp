@@ -8,6 +8,7 @@
 
 #include "annotation/scenes.h"
 #include "core/error.h"
+#include "core/geometry/angle.h"
 #include "io/tables/box_csv.h"
 #include "io/tables/homography_csv.h"
 #include "io/video/frame_source.h"
@@ -81,6 +82,37 @@ TEST(BoxTracker, FollowsForwardAndBackwardWithAndWithoutKnowingTheCamera) {
             EXPECT_EQ(result.boxes.front().frame, start < last ? start + 1 : start - 1);
             EXPECT_GT(worstOverlap(result), 0.75);
             for (const auto& each : result.boxes) EXPECT_GT(each.certainty, 0.45);
+        }
+    }
+}
+
+TEST(BoxTracker, LiesOnTheVehicleToAFifthOfAPixelInTheMean) {
+    const cv::Mat ground = test::groundTexture({420, 330}, 1, 2.5);
+    for (const double blur : {1.2, 2.5}) {
+        const cv::Mat car = test::groundTexture({27, 13}, 2, blur, 20, 235);
+        for (const cv::Point2d& speed : {cv::Point2d(2.2, 0.8), {4.3, 2.7}}) {
+            const auto truth = [&](FrameIndex frame) {
+                return OrientedBox{cv::Point2d(90, 90) + speed * frame, 26, 12, 0.3 + 0.03 * frame};
+            };
+            const auto gray = [&](FrameIndex frame) {
+                cv::Mat picture = ground.clone();
+                const cv::Point2d d = truth(frame).direction(), corner = truth(frame).toImage({-13, -6});
+                cv::warpAffine(car, picture, cv::Matx23d(d.x, -d.y, corner.x, d.y, d.x, corner.y), picture.size(),
+                               cv::INTER_LINEAR, cv::BORDER_TRANSPARENT);
+                return picture;
+            };
+            const FollowResult result = followBox(truth(0), 0, 25, gray, CameraMotion::standing(0, 25));
+            ASSERT_EQ(result.boxes.size(), 25U) << result.reason;
+            double off = 0, turned = 0;
+            for (const FollowedBox& each : result.boxes) {
+                off += cv::norm(each.box.centre - truth(each.frame).centre) / 25;
+                turned = std::max(turned, std::abs(turnBetween(each.box.heading, truth(each.frame).heading)));
+                EXPECT_NEAR(each.box.length, 26, 1e-9);
+                EXPECT_NEAR(each.box.width, 12, 1e-9);
+                EXPECT_GT(each.certainty, 0.8);
+            }
+            EXPECT_LT(off, 0.2) << blur << speed;
+            EXPECT_LT(turned, 0.05) << blur << speed;
         }
     }
 }

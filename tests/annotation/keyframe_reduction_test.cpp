@@ -82,6 +82,36 @@ TEST(KeyframeReduction, StaysWithinTheToleranceWhateverMoves) {
     }
 }
 
+TEST(KeyframeReduction, KeyframesStandWhereTheyServeBest) {
+    const CameraMotion standing = CameraMotion::standing(0, 400);
+    const auto reducedTo = [&](const std::function<OrientedBox(double)>& at, int last, double tolerance_px) {
+        std::vector<FrameBox> boxes;
+        for (int frame = 0; frame <= last; ++frame) boxes.push_back({frame, at(frame)});
+        ReductionOptions options;
+        options.tolerance_px = tolerance_px;
+        const LabelledObject object = objectOf(reduceToKeyframes(boxes, standing, options), boxes);
+        return std::pair(object.keyframes.size(), reductionError(object, boxes, standing).corner_px);
+    };
+    // Where a speed changes at once, the keyframes about that frame tell all.
+    const auto stops = [](double t) { return OrientedBox{{20 + 3 * std::min(t, 37.0), 80}, 20, 9, 0}; };
+    EXPECT_EQ(reducedTo(stops, 100, 1.5).first, 3U);
+    EXPECT_LT(reducedTo(stops, 100, 1.5).second, 0.1);
+    const auto speedsUp = [](double t) { return OrientedBox{{20 + t + 3 * std::max(0.0, t - 37), 80}, 20, 9, 0}; };
+    EXPECT_EQ(reducedTo(speedsUp, 100, 0.5).first, 5U);
+    EXPECT_LT(reducedTo(speedsUp, 100, 0.5).second, 0.1);
+    // Where it changes all the time, some three for a turn to either side.
+    const auto winds = [](double t) {
+        return OrientedBox{
+            {20 + 3 * t, 80 + 20 * std::sin(t / 17)}, 20, 9, std::atan2(20 / 17.0 * std::cos(t / 17), 3)};
+    };
+    EXPECT_LE(reducedTo(winds, 200, 0.5).first, 11U);
+    EXPECT_LE(reducedTo(winds, 200, 1.5).first, 7U);
+    const auto turnsOnItself = [](double t) {
+        return OrientedBox{{100 * std::sin(t / 40) + t, 80 * std::cos(t / 55)}, 20, 9, 0.02 * t};
+    };
+    EXPECT_LE(reducedTo(turnsOnItself, 300, 4).first, 14U);
+}
+
 TEST(KeyframeReduction, KeepsAnOverlapWhereThatIsAskedFor) {
     const auto boxes = dense(
         [](double t) {

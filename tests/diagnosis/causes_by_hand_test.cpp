@@ -279,17 +279,6 @@ TEST(CausesByHand, WhatFollowsAFrameThatWasNotRegisteredIsExplainedByItEvenWitho
     EXPECT_EQ(causeAfter(false).cause, ErrorCause::unregistered) << "which is why it was only predicted";
 }
 
-TEST(CausesByHand, WhatDoesNotOverlapAtAllIsNotOffEvenWhereNoOverlapIsNeeded) {
-    Scene scene;
-    scene.truth.push_back(car(0, 2, 500));
-    scene.min_overlap = 0;
-    scene.has_facts = true;
-    scene.facts.kept = {-1, 0};
-    scene.facts.tentative.overlap = scene.facts.dropped.overlap = scene.facts.rejected.overlap = -1;
-    scene.facts.kept.overlap = -1;
-    EXPECT_NE(scene.ofMiss().cause, ErrorCause::box_off);
-}
-
 TEST(CausesByHand, TheLastStageThatHadTheObjectDecides) {
     Scene scene;
     scene.truth.push_back(car(0, 2, 500));

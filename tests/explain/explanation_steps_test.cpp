@@ -321,11 +321,11 @@ TEST(ExplanationSteps, RemovedDetectionsAreToldBesideTheOneThatStayed) {
 
 TEST(ExplanationSteps, OfRemovedDetectionsTheOneThatLiesBestDecides) {
     PlaceEvidence evidence = clustered();
-    evidence.result.detections = {detectionAt(106, Rejection::outlier), detectionAt(100, Rejection::duplicate),
-                                  detectionAt(93, Rejection::outlier)};
-    for (const int i : {0, 2}) evidence.result.detections[static_cast<std::size_t>(i)].vectors = {0, 1};
-    evidence.removal.duplicates = {{0, 2, 0.9, 0.7, "duplicates.threshold"},
-                                   {1, 0, 17, 18, "duplicates.part_car_length"}};
+    evidence.result.detections = {detectionAt(106, Rejection::outlier), detectionAt(93, Rejection::outlier),
+                                  detectionAt(100, Rejection::duplicate)};
+    for (const int i : {0, 1}) evidence.result.detections[static_cast<std::size_t>(i)].vectors = {0, 1};
+    evidence.removal.duplicates = {{0, 1, 0.9, 0.7, "duplicates.threshold"},
+                                   {2, 0, 17, 18, "duplicates.part_car_length"}};
     const Explanation explanation = told(evidence);
     EXPECT_EQ(explanation.rejection, Rejection::duplicate);
     EXPECT_THAT(explanation.sentence,
@@ -333,7 +333,7 @@ TEST(ExplanationSteps, OfRemovedDetectionsTheOneThatLiesBestDecides) {
     EXPECT_EQ(linesOf(explanation, "removal").size(), 3U);
     evidence.removal.duplicates.clear();
     EXPECT_THAT(told(evidence).sentence, HasSubstr("The detection here was removed as a duplicate of another"));
-    evidence.result.detections[1].box.centre.x = 88;
+    evidence.result.detections[2].box.centre.x = 88;
     EXPECT_EQ(told(evidence).rejection, Rejection::outlier);
 }
 
