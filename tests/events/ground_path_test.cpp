@@ -57,6 +57,22 @@ GroundPath passing(double direction_deg) {
 
 }  // namespace
 
+TEST(GroundPath, ThreePicturesTellASpeed) {
+    // 10 m/s at one picture a second: the window of the first and of the last sample holds three.
+    Footage footage = standingCamera();
+    footage.scale.frame_rate_hz = 1;
+    const GroundStretches ground(footage);
+    for (const FrameIndex last : {2, 3, 10}) {
+        const std::vector<EventTrack> tracks = {trackOf(0, last, [](int t) { return 50 * t; })};
+        const auto paths = groundPaths(tracks, ground, {});
+        ASSERT_THAT(paths, SizeIs(1));
+        EXPECT_TRUE(paths[0].measured);
+        for (const GroundSample& sample : paths[0].samples) EXPECT_NEAR(sample.speed, 10, 1e-9) << sample.frame;
+    }
+    const std::vector<EventTrack> two = {trackOf(0, 1, [](int t) { return 50 * t; })};
+    EXPECT_FALSE(groundPaths(two, ground, {})[0].measured);
+}
+
 TEST(GroundPath, SpeedsAreTheSlopeOfALineThroughASecond) {
     // x = 0.01 t² px. Over t − 12 … t + 12 the line has the slope 0.02 t and lies 0.01 · 52 above the parabola; at the
     // first of 13 samples it has the slope 0.12 and lies 0.01 · 22 below.

@@ -133,6 +133,21 @@ TEST(Convoys, LastAsLongAsTheLastSeenPassesWhereTheOneBeforeWas) {
     EXPECT_NEAR(scene.placeOf(events[0]).x, 32 + 273 / 4.5, 1e-6) << "one that follows is shown";
 }
 
+TEST(Convoys, TwoOnTwoRoadsAtATimeAreTwo) {
+    DrivenTracks scene;
+    scene.noise_px = 0;
+    for (int i = 0; i < 3; ++i) scene.drive({50.0 - 18 * i, 30}, 0, {{25, 20, 20}});
+    for (int i = 0; i < 4; ++i) scene.drive({140.0 + 16 * i, 90}, 180, {{25, 20, 20}});
+    const auto events = scene.events(EventKind::convoy);
+    ASSERT_EQ(events.size(), 2U);
+    for (const Event& event : events) {
+        if (event.figure == 3)
+            EXPECT_THAT(event.tracks, ElementsAre(1, 2, 3));
+        else
+            EXPECT_THAT(event.tracks, ElementsAre(4, 5, 6, 7));
+    }
+}
+
 TEST(Convoys, TwoAreNone) {
     DrivenTracks scene;
     scene.drive({40, 40}, 0, {{30, 20, 20}});
@@ -185,6 +200,23 @@ TEST(Meetings, TwoFromDifferentDirectionsStandSideBySide) {
     EXPECT_NEAR(events[0].figure, 8, 1);
     EXPECT_NEAR(events[0].first_frame, 50 + 9 * 25, 15);
     EXPECT_NEAR(scene.placeOf(events[0]).x, 100, 2);
+}
+
+TEST(Meetings, OfNoLengthAskForOneFrameInWhichBothStand) {
+    EventOptions options;
+    options.meeting_time_s = 0;
+    const auto metFrom = [&](int frame) {
+        DrivenTracks scene;
+        scene.noise_px = 0;
+        scene.drive({60, 60}, 0, {{101 / 25.0, 0, 0}});  // to the frame 100
+        scene.drive({60, 63}, 180, {{8, 0, 0}}, frame);
+        return scene.events(EventKind::meeting, options);
+    };
+    ASSERT_EQ(metFrom(100).size(), 1U);
+    EXPECT_EQ(metFrom(100)[0].first_frame, 100);
+    EXPECT_EQ(metFrom(100)[0].last_frame, 100);
+    EXPECT_EQ(metFrom(100)[0].figure, 0);
+    EXPECT_THAT(metFrom(101), IsEmpty());
 }
 
 TEST(Meetings, AQueueIsNone) {

@@ -219,15 +219,15 @@ TEST(GroundPixels, NumbersStayInThePictureAndEventsOnEachOtherShareOne) {
 }
 
 TEST(GroundPixels, WaysAreThoseOfTheVehiclesBlueWhileTheEventLasts) {
-    const ReviewReportInput input = inputOf({driver(3, {100, 100}, {4, 0}), driver(4, {100, 300}, {4, 0})});
-    const Ground ground = groundOf(input, {eventOf({3}, 40, 60, 50, {300, 100})});
+    const ReviewReportInput input = inputOf({driver(3, {100, 100}, {20, 0}, 20), driver(4, {100, 300}, {20, 0}, 20)});
+    const Ground ground = groundOf(input, {eventOf({3}, 8, 12, 10, {300, 100})});
     ASSERT_EQ(ground.pictures.size(), 1U);
     const cv::Mat& picture = ground.pictures[0];
     const auto blue = [&](double x) { return blueAt(picture, onGround({x, 100}).x, onGround({x, 100}).y); };
-    EXPECT_GT(blue(264), 80) << "frame 41, and the event begins with 40";
-    EXPECT_GT(blue(336), 80);
-    EXPECT_LT(blue(252), 40) << "frame 38";
-    EXPECT_LT(blue(348), 40) << "frame 62";
+    EXPECT_GT(blue(265), 80) << "from where it was in frame 8, at 260";
+    EXPECT_GT(blue(335), 80) << "to where it was in frame 12, at 340";
+    EXPECT_LT(blue(252), 40);
+    EXPECT_LT(blue(348), 40);
     for (const double x : {104.0, 200.0, 420.0, 496.0}) {
         const cv::Point at = onGround({x, 100});
         EXPECT_TRUE(drawnAt(picture, at.x, at.y)) << x;
