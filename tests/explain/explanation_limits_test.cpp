@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "explain/explanation.h"
+#include "explain/empty_place.h"
 #include "tracking/finishing/track_score.h"
 
 namespace eyrie::explanation_limits_test {
@@ -10,21 +10,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr SceneScale kScale{0.25, 25, true};  // a car is 18 px long
-
-/// A registered frame; the place is a car's length around (100, 100).
-PlaceEvidence place() {
-    PlaceEvidence evidence;
-    evidence.area = placeAt({100, 100}, kScale);
-    FrameMotion& motion = evidence.result.motion;
-    motion.frame = 30;
-    motion.image_size = {1000, 500};
-    motion.corner_count = 1000;
-    motion.registration.state = RegistrationState::registered;
-    evidence.corners = CornerVerdicts{};
-    evidence.tracking = TrackingTrace{};
-    return evidence;
-}
+constexpr SceneScale kScale = test::kPlaceScale;  // a car is 18 px long
 
 CornerVerdict corner(CornerFate fate, double speed = 0, double limit = 1, int age = 20) {
     CornerVerdict verdict;
@@ -38,14 +24,14 @@ CornerVerdict corner(CornerFate fate, double speed = 0, double limit = 1, int ag
 }
 
 Explanation ofCorners(CornerVerdicts corners) {
-    PlaceEvidence evidence = place();
+    PlaceEvidence evidence = test::emptyPlace();
     evidence.corners = std::move(corners);
     return explain(evidence, {}, kScale);
 }
 
 /// Three vectors in a cluster whose search area of 14 × 30 px was searched with these checks.
 Explanation ofChecks(const std::vector<DetectionTrace::Check>& checks) {
-    PlaceEvidence evidence = place();
+    PlaceEvidence evidence = test::emptyPlace();
     for (const float x : {95.F, 100.F, 105.F})
         evidence.result.motion.motion_vectors.push_back({CornerId(x), {x, 100}, {2, 0}, 20});
     MotionCluster cluster;
@@ -99,7 +85,7 @@ TEST(ExplanationLimits, TheFastestCornerIsThatWhichCameClosestToItsOwnLimit) {
 
 TEST(ExplanationLimits, AFrameIsFullFrom95PerCentOfItsCornersOn) {
     const auto toldWith = [](int corners) {
-        PlaceEvidence evidence = place();
+        PlaceEvidence evidence = test::emptyPlace();
         evidence.result.motion.corner_count = corners;
         ChainOptions options;
         options.registration.corners.max_corners = 2000;
@@ -147,7 +133,7 @@ TEST(ExplanationLimits, OnlyChecksOfBoxesAtThePlaceAreTold) {
 
 TEST(ExplanationLimits, ATenthOfLogOddsTellsNothing) {
     const auto toldOfLife = [](double life_s) {
-        PlaceEvidence evidence = place();
+        PlaceEvidence evidence = test::emptyPlace();
         TrackState state;
         state.id = 7;
         state.box = {{100, 100}, 18, 7, 0};

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "explain/explanation.h"
+#include "explain/empty_place.h"
 
 namespace eyrie::explanation_steps_test {
 namespace {
@@ -14,29 +14,13 @@ using testing::IsEmpty;
 using testing::Not;
 using Lines = std::vector<std::string>;
 
-constexpr SceneScale kScale{0.25, 25, true};  // a car is 18 px long, 1 px/frame are 6.25 m/s
+constexpr SceneScale kScale = test::kPlaceScale;  // a car is 18 px long, 1 px/frame are 6.25 m/s
 
 ChainOptions plain() {
     ChainOptions options;
     options.clustering.min_density_share = 0;
     options.outliers.min_density_share = 0;
     return options;
-}
-
-/// A registered frame; the place is a car's length around (100, 100).
-PlaceEvidence place() {
-    PlaceEvidence evidence;
-    evidence.area = placeAt({100, 100}, kScale);
-    FrameMotion& motion = evidence.result.motion;
-    motion.frame = 30;
-    motion.image_size = {1000, 500};
-    motion.corner_count = 1000;
-    motion.registration.state = RegistrationState::registered;
-    motion.registration.current_from_previous.inliers = 800;
-    motion.registration.current_from_previous.rms_px = 0.2;
-    evidence.corners = CornerVerdicts{};
-    evidence.tracking = TrackingTrace{};
-    return evidence;
 }
 
 void addVectors(PlaceEvidence& evidence, const std::vector<cv::Point2f>& places) {
@@ -55,7 +39,7 @@ void addCluster(PlaceEvidence& evidence, std::vector<int> members, const Oriente
 
 /// Four vectors of one car in one cluster.
 PlaceEvidence clustered() {
-    PlaceEvidence evidence = place();
+    PlaceEvidence evidence = test::emptyPlace();
     addVectors(evidence, {{94, 98}, {100, 98}, {106, 98}, {100, 102}});
     addCluster(evidence, {0, 1, 2, 3});
     return evidence;
@@ -115,10 +99,10 @@ CornerVerdict corner(CornerFate fate, double speed, double limit, int baseline, 
 
 TEST(ExplanationSteps, EndWhereNothingGoesOn) {
     EXPECT_THAT(
-        linesOf(told(place())),
+        linesOf(told(test::emptyPlace())),
         ElementsAre("+ registration: 800 corners agree, 0.2 px rms @registration.min_inliers",
                     "− corners: no corner was tracked here @registration.corner_deviation", "− tracks: no track here"));
-    PlaceEvidence slow = place();
+    PlaceEvidence slow = test::emptyPlace();
     slow.corners = {corner(CornerFate::slow, 0.1, 0.16, 12, "motion.min_speed")};
     EXPECT_THAT(linesOf(told(slow)),
                 ElementsAre("+ registration: 800 corners agree, 0.2 px rms @registration.min_inliers",
@@ -129,7 +113,7 @@ TEST(ExplanationSteps, EndWhereNothingGoesOn) {
                             "· motion: 1 corner is too slow: fastest 0.1 px/frame (0.625 m/s), threshold 0.16 px/frame "
                             "(1 m/s) over 12 frames @motion.min_speed",
                             "− motion: no motion vector here", "− tracks: no track here"));
-    PlaceEvidence first = place();
+    PlaceEvidence first = test::emptyPlace();
     first.result.motion.registration.state = RegistrationState::first;
     EXPECT_THAT(linesOf(told(first)),
                 ElementsAre("− registration: the first frame of the run: there is nothing to register it onto",
@@ -142,7 +126,7 @@ TEST(ExplanationSteps, EndWhereNothingGoesOn) {
 }
 
 TEST(ExplanationSteps, CornersAreToldByTheirFate) {
-    PlaceEvidence evidence = place();
+    PlaceEvidence evidence = test::emptyPlace();
     evidence.corners = {corner(CornerFate::young, 0, 0, 0, "motion.min_age"),
                         corner(CornerFate::young, 0, 0, 0, "motion.min_age"), corner(CornerFate::moving, 2, 0.2, 12),
                         corner(CornerFate::too_fast, 20, 10, 12, "motion.max_speed"),
@@ -166,7 +150,7 @@ TEST(ExplanationSteps, CornersAreToldByTheirFate) {
 
 TEST(ExplanationSteps, OneSlowCornerDecidesAmongManyYoungOnesButOneOnAShadowDoesNot) {
     const CornerVerdict young = corner(CornerFate::young, 0, 0, 0, "motion.min_age");
-    PlaceEvidence evidence = place();
+    PlaceEvidence evidence = test::emptyPlace();
     evidence.corners = {young, young, young, young, corner(CornerFate::slow, 0.1, 0.16, 12, "motion.min_speed")};
     EXPECT_EQ(told(evidence).parameter, "motion.min_speed");
     for (const CornerFate outweighed : {CornerFate::shadow, CornerFate::parallax, CornerFate::too_fast}) {
@@ -179,7 +163,7 @@ TEST(ExplanationSteps, OneSlowCornerDecidesAmongManyYoungOnesButOneOnAShadowDoes
 }
 
 TEST(ExplanationSteps, WithoutVerdictsStandingCornersAreCounted) {
-    PlaceEvidence evidence = place();
+    PlaceEvidence evidence = test::emptyPlace();
     evidence.corners.reset();
     evidence.result.motion.stationary_corners = {{95, 100}, {105, 100}, {300, 100}};
     const Explanation explanation = told(evidence);
@@ -188,7 +172,7 @@ TEST(ExplanationSteps, WithoutVerdictsStandingCornersAreCounted) {
 }
 
 TEST(ExplanationSteps, TooFewVectorsAndTheNextOfThem) {
-    PlaceEvidence evidence = place();
+    PlaceEvidence evidence = test::emptyPlace();
     addVectors(evidence, {{98, 100}, {102, 100}, {128, 100}});
     const std::string linked = "− 2 motion vectors are linked here, 3 are needed @clustering.min_members";
     EXPECT_THAT(linesOf(told(evidence), "clustering"),
@@ -199,14 +183,14 @@ TEST(ExplanationSteps, TooFewVectorsAndTheNextOfThem) {
     EXPECT_THAT(linesOf(told(evidence), "clustering"), ElementsAre(linked)) << "ten linkage distances are far";
     evidence.result.motion.motion_vectors.pop_back();
     EXPECT_THAT(linesOf(told(evidence), "clustering"), ElementsAre(linked)) << "there is no other";
-    PlaceEvidence sideways = place();
+    PlaceEvidence sideways = test::emptyPlace();
     addVectors(sideways, {{98, 96}, {102, 96}, {100, 104}});
     EXPECT_THAT(told(sideways).sentence,
                 HasSubstr("3 motion vectors lie here, but only 2 are linked: the next is 2 px ahead and 8 px aside"));
 }
 
 TEST(ExplanationSteps, LinkedVectorsThatAreTooLong) {
-    PlaceEvidence evidence = place();
+    PlaceEvidence evidence = test::emptyPlace();
     addVectors(evidence, {{92, 100}, {100, 100}, {108, 100}});
     ChainOptions options = plain();
     options.clustering.max_length_m = 3;
@@ -234,7 +218,7 @@ TEST(ExplanationSteps, AClusterIsToldWithItsWeakestLinkAndItsNearestNeighbour) {
                             "velocities differ by 0 px/frame (0 m/s) (allowed 0.24) @clustering.along"));
     evidence.result.motion.motion_vectors.back().position.x = 106 + 57;
     EXPECT_THAT(linesOf(told(evidence), "clustering"), ElementsAre(cluster, inside)) << "four linkage distances";
-    PlaceEvidence first = place();
+    PlaceEvidence first = test::emptyPlace();
     addVectors(first, {{106 + 28, 98}, {94, 98}, {100, 98}, {106, 98}, {100, 102}});
     addCluster(first, {1, 2, 3, 4});
     EXPECT_EQ(linesOf(told(first), "clustering").size(), 3U) << "the neighbour may be the first of all vectors";
@@ -271,7 +255,7 @@ TEST(ExplanationSteps, AreasOfDifferenceImagesAreAllTold) {
     evidence.result.clusters.clear();
     EXPECT_EQ(told(evidence, options).parameter, "motion.method");
     EXPECT_THAT(linesOf(told(evidence, options), "detection"), IsEmpty());
-    PlaceEvidence still = place();
+    PlaceEvidence still = test::emptyPlace();
     still.corners = {corner(CornerFate::slow, 0.1, 0.16, 12, "motion.min_speed")};
     EXPECT_EQ(told(still, options).parameter, "motion.method") << "no vector is needed";
 }
@@ -423,7 +407,7 @@ TEST(ExplanationSteps, ATentativeTrackOfTheRunIsLeftOut) {
 }
 
 TEST(ExplanationSteps, ATrackWithoutADetectionSaysWhatIsMissing) {
-    PlaceEvidence evidence = place();
+    PlaceEvidence evidence = test::emptyPlace();
     evidence.result.tracks = {stateAt(9, 104, TrackStatus::coasting, StateOrigin::predicted),
                               stateAt(2, 100, TrackStatus::confirmed, StateOrigin::reconstructed)};
     const Explanation explanation = told(evidence);

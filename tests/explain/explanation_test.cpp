@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "explain/empty_place.h"
 #include "tracking/finishing/track_score.h"
 
 namespace eyrie::explanation_test {
@@ -10,11 +11,6 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
-
-/// 0.25 m/px at 25 frames/s: 1 px is 25 cm, 1 px/frame is 6.25 m/s; a car is 18 × 7.2 px.
-SceneScale scaleOfTests() {
-    return {0.25, 25, true};
-}
 
 MotionVector vectorAt(CornerId id, float x, float y, cv::Point2f velocity = {2, 0}) {
     return {id, {x, y}, velocity, 20};
@@ -29,22 +25,6 @@ CornerVerdict cornerAt(CornerId id, float x, float y, CornerFate fate) {
     corner.on_background = true;
     corner.fate = fate;
     return corner;
-}
-
-/// A registered frame without corners; the place is a car's length around (100, 100).
-PlaceEvidence emptyPlace() {
-    PlaceEvidence evidence;
-    evidence.area = placeAt({100, 100}, scaleOfTests());
-    FrameMotion& motion = evidence.result.motion;
-    motion.frame = 30;
-    motion.image_size = {1000, 500};
-    motion.corner_count = 1000;
-    motion.registration.state = RegistrationState::registered;
-    motion.registration.current_from_previous.inliers = 800;
-    motion.registration.current_from_previous.rms_px = 0.2;
-    evidence.corners = CornerVerdicts{};
-    evidence.tracking = TrackingTrace{};
-    return evidence;
 }
 
 /// Options in which counts alone decide, so that they can be worked out by hand.
@@ -63,7 +43,7 @@ Explanation explained(PlaceEvidence evidence, const ChainOptions& options, const
 
 /// The place with four vectors of one car in one cluster, which was searched.
 PlaceEvidence clusteredPlace() {
-    PlaceEvidence evidence = emptyPlace();
+    PlaceEvidence evidence = test::emptyPlace();
     FrameMotion& motion = evidence.result.motion;
     motion.motion_vectors = {vectorAt(1, 94, 98), vectorAt(2, 100, 98), vectorAt(3, 106, 98), vectorAt(4, 100, 102)};
     MotionCluster cluster;
@@ -105,10 +85,10 @@ TrackState stateAt(TrackId id, cv::Point2d centre, TrackStatus status, StateOrig
 }
 
 TEST(Explanation, frameThatCouldNotBeRegistered) {
-    PlaceEvidence evidence = emptyPlace();
+    PlaceEvidence evidence = test::emptyPlace();
     evidence.result.motion.registration.state = RegistrationState::failed;
     evidence.result.motion.registration.failure = {.fault = RegistrationFault::too_few_agree, .count = 12, .of = 40};
-    const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
+    const Explanation told = explained(evidence, plainOptions(), test::kPlaceScale);
     EXPECT_FALSE(told.found);
     EXPECT_EQ(told.parameter, "registration.min_inliers");
     EXPECT_THAT(told.sentence, HasSubstr("too few corners agree (12 of 40)"));
@@ -116,22 +96,22 @@ TEST(Explanation, frameThatCouldNotBeRegistered) {
 }
 
 TEST(Explanation, placeWithoutCorners) {
-    PlaceEvidence evidence = emptyPlace();
-    const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
+    PlaceEvidence evidence = test::emptyPlace();
+    const Explanation told = explained(evidence, plainOptions(), test::kPlaceScale);
     EXPECT_EQ(told.parameter, "registration.corner_deviation");
     EXPECT_EQ(told.setting, "0.5 px");
     evidence.result.motion.corner_count = 11'990;
-    EXPECT_EQ(explained(evidence, plainOptions(), scaleOfTests()).parameter, "registration.max_corners");
+    EXPECT_EQ(explained(evidence, plainOptions(), test::kPlaceScale).parameter, "registration.max_corners");
 }
 
 TEST(Explanation, cornersTooYoungForTheirSpeedToBeKnown) {
-    PlaceEvidence evidence = emptyPlace();
+    PlaceEvidence evidence = test::emptyPlace();
     CornerVerdict corner = cornerAt(1, 100, 100, CornerFate::young);
     corner.age = 3;
     corner.baseline = 0;
     corner.parameter = "motion.min_age";
     evidence.corners = CornerVerdicts{corner};
-    const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
+    const Explanation told = explained(evidence, plainOptions(), test::kPlaceScale);
     EXPECT_EQ(told.parameter, "motion.min_age");
     EXPECT_EQ(told.sentence,
               "The oldest corner here has been tracked for 3 frames, 5 are needed: motion.min_age = 5 "
@@ -139,7 +119,7 @@ TEST(Explanation, cornersTooYoungForTheirSpeedToBeKnown) {
 }
 
 TEST(Explanation, cornersSlowerThanTheThreshold) {
-    PlaceEvidence evidence = emptyPlace();
+    PlaceEvidence evidence = test::emptyPlace();
     CornerVerdict corner = cornerAt(1, 100, 100, CornerFate::slow);
     corner.speed = 0.1;
     corner.limit = 0.16;
@@ -148,7 +128,7 @@ TEST(Explanation, cornersSlowerThanTheThreshold) {
     slower.id = 2;
     slower.speed = 0.04;
     evidence.corners = CornerVerdicts{corner, slower};
-    const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
+    const Explanation told = explained(evidence, plainOptions(), test::kPlaceScale);
     EXPECT_EQ(told.parameter, "motion.min_speed");
     // 0.1 px/frame · 0.25 m/px · 25 frames/s = 0.625 m/s.
     EXPECT_EQ(told.sentence,
@@ -157,42 +137,42 @@ TEST(Explanation, cornersSlowerThanTheThreshold) {
 }
 
 TEST(Explanation, cornersThatParallaxOrAShadowExplains) {
-    PlaceEvidence evidence = emptyPlace();
+    PlaceEvidence evidence = test::emptyPlace();
     evidence.corners =
         CornerVerdicts{cornerAt(1, 98, 100, CornerFate::parallax), cornerAt(2, 102, 100, CornerFate::slow)};
     evidence.corners->front().parameter = "motion.parallax_factor";
-    EXPECT_EQ(explained(evidence, plainOptions(), scaleOfTests()).parameter, "motion.parallax_factor");
+    EXPECT_EQ(explained(evidence, plainOptions(), test::kPlaceScale).parameter, "motion.parallax_factor");
     evidence.corners = CornerVerdicts{cornerAt(1, 98, 100, CornerFate::shadow)};
-    EXPECT_EQ(explained(evidence, plainOptions(), scaleOfTests()).parameter, "motion.shadow_test");
+    EXPECT_EQ(explained(evidence, plainOptions(), test::kPlaceScale).parameter, "motion.shadow_test");
 }
 
 TEST(Explanation, tooFewVectorsForACluster) {
-    PlaceEvidence evidence = emptyPlace();
+    PlaceEvidence evidence = test::emptyPlace();
     evidence.result.motion.motion_vectors = {vectorAt(1, 98, 100), vectorAt(2, 102, 100)};
-    const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
+    const Explanation told = explained(evidence, plainOptions(), test::kPlaceScale);
     EXPECT_EQ(told.sentence, "2 motion vectors, 3 are needed: clustering.min_members = 3 vectors.");
     ChainOptions by_density = plainOptions();
     // 1000 corners in 1000 × 500 px give 0.002 per px²; a car of 18 × 7.2 px has 0.2592 of them, far below 3.
     by_density.clustering.min_density_share = 2;
-    EXPECT_EQ(explained(evidence, by_density, scaleOfTests()).parameter, "clustering.min_members");
+    EXPECT_EQ(explained(evidence, by_density, test::kPlaceScale).parameter, "clustering.min_members");
     evidence.result.motion.corner_count = 10'000;  // 2.592 on a car, of which twice: 5
-    const Explanation dense = explained(evidence, by_density, scaleOfTests());
+    const Explanation dense = explained(evidence, by_density, test::kPlaceScale);
     EXPECT_EQ(dense.sentence, "2 motion vectors, 5 are needed: clustering.min_density_share = 2.");
 }
 
 TEST(Explanation, vectorsThatTheLinkageKeepsApart) {
-    PlaceEvidence evidence = emptyPlace();
+    PlaceEvidence evidence = test::emptyPlace();
     // Three vectors, one of them 6 px aside of the others, where 4 are allowed (1.0 m / 0.25 m/px).
     evidence.result.motion.motion_vectors = {vectorAt(1, 98, 98), vectorAt(2, 102, 98), vectorAt(3, 100, 104)};
-    const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
+    const Explanation told = explained(evidence, plainOptions(), test::kPlaceScale);
     EXPECT_EQ(told.parameter, "clustering.min_distance");  // 1.0 m are 4 px, and so is the floor
     ChainOptions no_floor = plainOptions();
     no_floor.clustering.min_distance = 1;
-    EXPECT_EQ(explained(evidence, no_floor, scaleOfTests()).parameter, "clustering.across");
+    EXPECT_EQ(explained(evidence, no_floor, test::kPlaceScale).parameter, "clustering.across");
     EXPECT_THAT(told.sentence, HasSubstr("3 motion vectors lie here, but only 2 are linked"));
     // Near enough, but half as fast: a difference of 1 px/frame, where 12 % of the mean of 1.5 are allowed.
     evidence.result.motion.motion_vectors[2] = vectorAt(3, 100, 100, {1, 0});
-    const Explanation differs = explained(evidence, plainOptions(), scaleOfTests());
+    const Explanation differs = explained(evidence, plainOptions(), test::kPlaceScale);
     EXPECT_EQ(differs.parameter, "clustering.velocity_share");
     EXPECT_THAT(differs.sentence, HasSubstr("velocities differ by 1 px/frame"));
     EXPECT_THAT(differs.sentence, HasSubstr("(allowed 0.18)"));
@@ -202,7 +182,7 @@ TEST(Explanation, clusterInWhichTheWindowsAreNotSureEnough) {
     PlaceEvidence evidence = clusteredPlace();
     evidence.searches.front().trace.checks = {
         {"decision value of the best window", "sliding_window.decision_threshold", -1.25, 0, false, false}};
-    const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
+    const Explanation told = explained(evidence, plainOptions(), test::kPlaceScale);
     EXPECT_EQ(told.parameter, "sliding_window.decision_threshold");
     EXPECT_EQ(told.sentence,
               "The detector found no box here; closest was: decision value of the best window: -1.25, at least 0: "
@@ -216,7 +196,7 @@ TEST(Explanation, ofSeveralChecksTheOneThatWasCloserDecides) {
         {"motion vectors in a component", "gradient.support_share", 0, 1, false, false, here},
         {"area of a box", "gradient.min_box_area", 9, 10, false, false, here},
         {"area of a box", "gradient.min_box_area", 1, 10, false, false, {40, 60, 1, 1}}};
-    const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
+    const Explanation told = explained(evidence, plainOptions(), test::kPlaceScale);
     EXPECT_EQ(told.parameter, "gradient.min_box_area");
     EXPECT_THAT(told.sentence, HasSubstr("area of a box: 9, at least 10"));
 }
@@ -225,7 +205,7 @@ TEST(Explanation, detectionWithTooFewVectorsIsAnOutlier) {
     PlaceEvidence evidence = detectedPlace();
     evidence.result.detections.front().vectors = {0, 1};
     evidence.result.detections.front().rejection = Rejection::outlier;
-    const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
+    const Explanation told = explained(evidence, plainOptions(), test::kPlaceScale);
     EXPECT_EQ(told.sentence,
               "The detection here was removed as an outlier: 2 motion vectors move with the box, 3 are needed: "
               "outliers.min_vectors = 3 vectors.");
@@ -235,7 +215,7 @@ TEST(Explanation, detectionOfAnImpossibleSize) {
     PlaceEvidence evidence = detectedPlace();
     evidence.result.detections.front().box.length = 4;  // 1 m; at least 1.2 m are 4.8 px
     evidence.result.detections.front().rejection = Rejection::size;
-    const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
+    const Explanation told = explained(evidence, plainOptions(), test::kPlaceScale);
     EXPECT_EQ(told.parameter, "outliers.min_length");
     EXPECT_THAT(told.sentence, HasSubstr("4 px (1 m), at least 4.8 px (1.2 m)"));
 }
@@ -246,7 +226,7 @@ TEST(Explanation, detectionThatReachesBeyondThePicture) {
     evidence.result.detections.front().rejection = Rejection::size;
     ChainOptions options = plainOptions();
     options.outliers.inside_image = true;
-    const Explanation told = explained(evidence, options, scaleOfTests());
+    const Explanation told = explained(evidence, options, test::kPlaceScale);
     EXPECT_EQ(told.parameter, "outliers.inside_image");
     EXPECT_THAT(told.sentence, HasSubstr("reaches beyond the picture: 69.4 % of the box is in the picture"));
 }
@@ -257,7 +237,7 @@ TEST(Explanation, duplicateNamesTheOverlapThatDecided) {
     evidence.result.detections[1].box.centre = {140, 100};
     evidence.result.detections[0].rejection = Rejection::duplicate;
     evidence.removal.duplicates = {{0, 1, 0.82, 0.7, "duplicates.threshold"}};
-    const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
+    const Explanation told = explained(evidence, plainOptions(), test::kPlaceScale);
     EXPECT_EQ(told.parameter, "duplicates.threshold");
     EXPECT_THAT(told.sentence, HasSubstr("overlaps another detection by 0.82, duplicates overlap by 0.7"));
 }
@@ -267,7 +247,7 @@ TEST(Explanation, tentativeTrackCountsItsDetections) {
     evidence.tracking->started = {{0, 7}};
     evidence.unfinished = {stateAt(7, {100, 100}, TrackStatus::tentative, StateOrigin::detected)};
     evidence.tracking->tentative = {{7, 3, 8, 5, 8}};
-    const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
+    const Explanation told = explained(evidence, plainOptions(), test::kPlaceScale);
     EXPECT_FALSE(told.found);
     EXPECT_EQ(
         told.sentence,
@@ -276,7 +256,7 @@ TEST(Explanation, tentativeTrackCountsItsDetections) {
 }
 
 TEST(Explanation, trackThatEndedForWantOfEvidence) {
-    PlaceEvidence evidence = emptyPlace();
+    PlaceEvidence evidence = test::emptyPlace();
     TracedTrack track;
     track.id = 4;
     track.predicted = {{100, 100}, 18, 7, 0};
@@ -284,7 +264,7 @@ TEST(Explanation, trackThatEndedForWantOfEvidence) {
     track.ended_value = 9;
     track.ended_limit = 8;
     evidence.tracking->tracks = {track};
-    const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
+    const Explanation told = explained(evidence, plainOptions(), test::kPlaceScale);
     // The first thing that was missing decided: without a corner nothing else could come.
     EXPECT_EQ(told.parameter, "registration.corner_deviation");
     const auto ended = std::find_if(told.steps.begin(), told.steps.end(), [](const ExplanationStep& step) {
@@ -298,7 +278,7 @@ TEST(Explanation, trackThatEndedForWantOfEvidence) {
 TEST(Explanation, detectionInsideATrackThatMovesAlikeStartsNone) {
     PlaceEvidence evidence = detectedPlace();
     evidence.tracking->doubled = {{0, "tracking.duplicate_overlap"}};
-    const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
+    const Explanation told = explained(evidence, plainOptions(), test::kPlaceScale);
     EXPECT_EQ(told.parameter, "tracking.duplicate_overlap");
 }
 
@@ -313,7 +293,7 @@ TEST(Explanation, hitTellsItsTrackAndTheRowOfTheOverlapMatrix) {
     evidence.tracking->tracks = {row};
     evidence.tracking->relations = {{0, 12, 0.93, true}};
     evidence.tracking->min_overlap = 0.2;
-    const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
+    const Explanation told = explained(evidence, plainOptions(), test::kPlaceScale);
     EXPECT_TRUE(told.found);
     EXPECT_TRUE(told.parameter.empty());
     EXPECT_THAT(told.sentence, StartsWith("Track 12 is here: confirmed"));
@@ -399,7 +379,7 @@ TEST(Explanation, everyParameterNamedIsOneThatExists) {
 TEST(Explanation, trackLeftOutWhenTracksWereFinished) {
     PlaceEvidence evidence = detectedPlace();
     evidence.result.dropped = {{7, {{100, 100}, 18, 7, 0}, TrackDrop::hardly_detected, 0}};
-    const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
+    const Explanation told = explained(evidence, plainOptions(), test::kPlaceScale);
     EXPECT_FALSE(told.found);
     EXPECT_EQ(told.parameter, "finishing.min_detected");
     EXPECT_THAT(told.sentence, HasSubstr("track 7 was guessed rather than detected"));
@@ -419,7 +399,7 @@ TEST(Explanation, whatSpeaksForATrackAndAgainstItIsTold) {
     judged.score = 0.91;
     evidence.judged[7] = judged;
     const auto stepWith = [&](const std::string& words) {
-        const Explanation told = explained(evidence, plainOptions(), scaleOfTests());
+        const Explanation told = explained(evidence, plainOptions(), test::kPlaceScale);
         for (const ExplanationStep& step : told.steps)
             if (step.text.find(words) != std::string::npos) return step;
         return ExplanationStep{};

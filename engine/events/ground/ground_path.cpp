@@ -91,20 +91,21 @@ GroundPath pieceFrom(const EventTrack& track, std::size_t first, const GroundStr
     path.first_box = first;
     path.stretch = ground.indexOf(track.boxes[first].frame);
     path.begins = first == 0;
-    raw.reserve(track.boxes.size() - first);
-    path.samples.reserve(track.boxes.size() - first);
-    std::size_t i = first;
-    for (; i < track.boxes.size(); ++i) {
-        const TrackedBox& box = track.boxes[i];
-        if (ground.indexOf(box.frame) != path.stretch) break;
+    const FrameIndex last = ground.all()[static_cast<std::size_t>(path.stretch)].last_frame;
+    const auto begin = track.boxes.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto end =
+        std::partition_point(begin, track.boxes.end(), [last](const TrackedBox& box) { return box.frame <= last; });
+    raw.reserve(static_cast<std::size_t>(end - begin));
+    path.samples.reserve(static_cast<std::size_t>(end - begin));
+    for (auto box = begin; box != end; ++box) {
         GroundSample sample;
-        sample.frame = box.frame;
-        sample.at = ground.toGround(box.frame, box.box.centre);
-        sample.by_place = ground.metresByPlace(box.frame, box.box.centre);
+        sample.frame = box->frame;
+        sample.at = ground.toGround(box->frame, box->box.centre);
+        sample.by_place = ground.metresByPlace(box->frame, box->box.centre);
         raw.push_back(sample.at);
         path.samples.push_back(sample);
     }
-    path.ends = i == track.boxes.size();
+    path.ends = end == track.boxes.end();
     return path;
 }
 

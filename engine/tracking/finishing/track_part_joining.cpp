@@ -27,7 +27,6 @@ constexpr double kCovered = 0.1;           ///< of the smaller part, where parts
 constexpr double kTravelledCovered = 4;    ///< … m over the ground that say enough then …
 constexpr double kCoveredOfLonger = 0.25;  ///< … share of the longer one's life, whose box grows throughout …
 constexpr double kLooseCovered = 0.5;      ///< … and m by which their distance scatters
-constexpr double kEstimated = 1.25;        ///< of the size of vehicles, where the GSD was estimated
 
 /// What a whole box adds to one of its parts, in the part's own axes; px.
 struct Growth {
@@ -93,7 +92,7 @@ std::optional<Whole> wholeOf(const TrackPath& leader, const TrackPath& other, co
     if (medianOf(gaps) > scale.px(kPartGap) + kPixel) return {};
     if (!overlap && medianOf(across) > scale.px(kAside) + kPixel) return {};
     if (spreadOf(along) > scale.px(overlap ? kLooseCovered : kLoose) + kPixel / 2) return {};
-    const double metre = scale.px(overlap && !scale.gsd_known ? kEstimated : 1);
+    const double metre = scale.px(overlap && !scale.gsd_known ? 1 / kEstimatedShare : 1);
     if (medianOf(parts) > kPart * metre) return {};
     if (medianOf(lengths) > kLongest * metre || medianOf(widths) > kWidest * metre + 2 * kPixel) return {};
     return whole;

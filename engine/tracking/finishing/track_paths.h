@@ -8,6 +8,9 @@
 
 namespace eyrie {
 
+/// How much smaller, or larger by its inverse, than a limit in metres a vehicle may seem where the GSD was estimated.
+inline constexpr double kEstimatedShare = 0.8;
+
 /// Collects what is left out.
 using DropList = std::vector<DroppedPath>;
 

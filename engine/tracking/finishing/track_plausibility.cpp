@@ -19,7 +19,6 @@ constexpr double kSharedOfShorter = 0.3;  ///< … and this share of the shorter
 constexpr double kWidestVehicle = 3.2;    ///< m
 constexpr double kPlaceMargin = 1;        ///< px
 constexpr double kSureSeconds = 0.4;      ///< a track detected for so long altogether is not doubted
-constexpr double kEstimatedShare = 0.8;   ///< of a limit in metres that counts where the GSD was estimated
 constexpr double kSizeQuantile = 0.75;    ///< boxes miss parts more often than they exceed the vehicle
 
 double quantileOf(std::vector<double> values, double share) {

@@ -15,10 +15,7 @@ using test::onEveryRoad;
 using test::shaking;
 
 void expectParts(bool expected, const Lane& leader, const Lane& other, const SceneScale& scale = kFourToAMetre) {
-    onEveryRoad(leader, other, [&](std::vector<TrackPath> paths) {
-        joinParts(paths, scale, PartsOfVehicle::in_line);
-        EXPECT_EQ(paths.size() == 1, expected);
-    });
+    test::expectParts(expected, leader, other, scale, PartsOfVehicle::in_line);
 }
 
 /// Front and rear of a lorry; the rear is 12 px long.

@@ -57,6 +57,15 @@ inline void onEveryRoad(Lane one, Lane other, const std::function<void(std::vect
     }
 }
 
+/// Whether two lanes become one track as parts of one vehicle.
+inline void expectParts(bool expected, const Lane& one, const Lane& other, const SceneScale& scale,
+                        PartsOfVehicle wanted) {
+    onEveryRoad(one, other, [&](std::vector<TrackPath> paths) {
+        joinParts(paths, scale, wanted);
+        EXPECT_EQ(paths.size() == 1, expected);
+    });
+}
+
 /// px a frame to either side in turn.
 inline std::function<cv::Point2d(int)> shaking(cv::Point2d by) {
     return [by](int frame) { return frame % 2 == 0 ? by : -by; };

@@ -19,10 +19,7 @@ constexpr SceneScale kEstimated{0.25, 25, false};
 
 void expectOne(bool expected, const Lane& one, const Lane& other, const SceneScale& scale = kFourToAMetre,
                PartsOfVehicle wanted = PartsOfVehicle::overlapping) {
-    onEveryRoad(one, other, [&](std::vector<TrackPath> paths) {
-        joinParts(paths, scale, wanted);
-        EXPECT_EQ(paths.size() == 1, expected);
-    });
+    test::expectParts(expected, one, other, scale, wanted);
 }
 
 /// A lorry seen from the side: its load, and its wheels, of which 1 px of 6 lies on the load.
