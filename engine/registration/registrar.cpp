@@ -14,6 +14,11 @@
 namespace eyrie {
 namespace {
 
+// A fit on which fewer agree is tried again with any perspective, and given up for one on which clearly more do.
+constexpr double kUnquestionedShare = 0.5;
+constexpr double kClearlyMore = 1.2;
+constexpr double kFarthestPx = 10;  ///< off the coarse registration, for a corner that was looked for around it
+
 cv::Matx33d powerOf(const cv::Matx33d& m, int exponent) {
     cv::Matx33d result = cv::Matx33d::eye();
     for (int i = 0; i < exponent; ++i) result = m * result;
@@ -177,11 +182,15 @@ std::optional<Registrar::Match> Registrar::registerOnto(const Anchor& anchor, Re
     }
     auto fit = estimator_->refine(points, start);
     const auto inliersOf = [](const std::optional<HomographyFit>& each) { return each ? each->inliers : 0; };
-    if (!fit || !estimator_->trustworthy(*fit)) {
-        const auto sampled = estimator_->search(points, MotionModel::homography, options_.homography.inlier_distance);
-        if (sampled) {
-            const auto second = estimator_->refine(points, *sampled);
-            if (inliersOf(second) > inliersOf(fit)) fit = second;
+    if (!fit || fit->inlier_share < kUnquestionedShare) {
+        const HomographyEstimator free = estimator_->anyPerspective();
+        const auto consider = [&](const std::optional<HomographyFit>& other) {
+            if (inliersOf(other) > kClearlyMore * inliersOf(fit)) fit = other;
+        };
+        consider(free.refine(points, start, 1, kFarthestPx));
+        if (!fit || !estimator_->trustworthy(*fit)) {
+            const auto sampled = free.search(points, MotionModel::homography, options_.homography.inlier_distance);
+            if (sampled) consider(free.refine(points, *sampled));
         }
     }
     if (!fit || !estimator_->trustworthy(*fit)) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <opencv2/imgproc.hpp>
+
 #include "registration/registrar.h"
 #include "support/textured_ground.h"
 
@@ -59,6 +61,17 @@ class Watch {
 /// How the camera usually moves from frame to frame.
 inline cv::Matx33d drift() {
     return cameraMotion(kSize, 1.7, -0.9, 0.15, 1.001);
+}
+
+/// How the picture moves in a sharp turn near the ground: its edges by a tenth to a sixth of its width, all
+/// differently.
+inline cv::Matx33d sharpTurn(cv::Size size) {
+    const auto w = float(size.width - 1);
+    const auto h = float(size.height - 1);
+    const cv::Point2f from[4] = {{0, 0}, {w, 0}, {w, h}, {0, h}};
+    const cv::Point2f to[4] = {
+        {-0.175F * w, 0.055F * h}, {0.84F * w, -0.017F * h}, {0.85F * w, 0.87F * h}, {-0.12F * w, 1.117F * h}};
+    return {cv::getPerspectiveTransform(from, to)};
 }
 
 inline void expectWellFormed(const RegisteredFrame& result, cv::Size size) {

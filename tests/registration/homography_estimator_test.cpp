@@ -5,6 +5,7 @@
 #include <random>
 
 #include "registration/estimation/normal_equations.h"
+#include "registration/flight.h"
 #include "support/every_target.h"
 #include "support/textured_ground.h"
 
@@ -148,6 +149,23 @@ TEST(HomographyEstimator, staysSaneWhereTextureIsInOnePart) {
         ASSERT_TRUE(fit);
         EXPECT_LT(test::gridError(fit->matrix, someMotion(), kSize), 1.5) << seed;
         EXPECT_TRUE(plausibleMotion(fit->matrix, kSize));
+    }
+}
+
+TEST(HomographyEstimator, aSharpTurnIsFoundWherePerspectiveMayBeAny) {
+    // As features match: few, to half a pixel, most of them on something else.
+    const cv::Matx33d turn = test::sharpTurn(kSize);
+    const HomographyEstimator between_frames({}, kSize);
+    const HomographyEstimator free = between_frames.anyPerspective();
+    for (unsigned seed = 1; seed <= 5; ++seed) {
+        const Correspondences p = points(turn, kAll, 200, 0.5, 0.6, seed);
+        const auto errorOf = [&](const HomographyEstimator& estimator) {
+            const auto start = estimator.search(p, MotionModel::homography, 3);
+            const auto fit = start ? estimator.refine(p, *start, 2, 6) : std::nullopt;
+            return fit ? test::gridError(fit->matrix, turn, kSize) : 1e3;
+        };
+        EXPECT_LT(errorOf(free), 2) << seed;
+        EXPECT_GT(errorOf(between_frames), 5) << seed;
     }
 }
 

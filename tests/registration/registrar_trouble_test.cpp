@@ -50,6 +50,18 @@ TEST(RegistrarTrouble, findsItsWayAfterATurnByFeatures) {
     }
 }
 
+TEST(RegistrarTrouble, followsASharpTurnNearTheGround) {
+    Watch watch;
+    Flight flight;
+    watch.see(flight);
+    for (int i = 0; i < 3; ++i) {
+        flight.move(test::sharpTurn(kSize));
+        const RegisteredFrame turned = watch.see(flight);
+        ASSERT_EQ(turned.registration.state, RegistrationState::registered) << describe(turned.registration.failure);
+        EXPECT_LT(watch.error(turned), 0.3);
+    }
+}
+
 TEST(RegistrarTrouble, withoutFeaturesATurnIsACut) {
     RegistrationOptions options;
     options.feature_search = false;

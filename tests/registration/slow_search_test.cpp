@@ -128,10 +128,11 @@ std::optional<HomographyFit> slowFeatures(const ImagePyramid& from, const ImageP
         pairs.add(full(points[0][std::size_t(i)].pt), full(points[1][std::size_t(best)].pt));
     }
     if (pairs.size() < 20) return std::nullopt;
+    const HomographyEstimator free = estimator.anyPerspective();
     std::optional<HomographyFit> best;
     for (const MotionModel model : {MotionModel::similarity, MotionModel::homography}) {
-        const auto start = estimator.search(pairs, model, 3 * scale);
-        const auto fit = start ? estimator.refine(pairs, *start, 2 * scale, 6 * scale) : std::nullopt;
+        const auto start = free.search(pairs, model, 3 * scale);
+        const auto fit = start ? free.refine(pairs, *start, 2 * scale, 6 * scale) : std::nullopt;
         if (fit && fit->inliers >= 20 && fit->inlier_share >= 0.35 && fit->sigma_px <= 2.5 * scale &&
             plausibleMotion(fit->matrix, from.size()) && (!best || fit->inliers > best->inliers)) {
             best = fit;

@@ -18,8 +18,12 @@ namespace {
 
 // Tighter than the 4.685 that is best for one normal distribution: vehicles a few deviations off must not count.
 constexpr double kTukey = 3.0;
+// Perspective changes between neighbouring frames bend the borders of the picture by no more than a few px.
+constexpr double kProjectiveDeviation = 0.004;
+constexpr double kAnyProjectiveDeviation = 0.3;
 constexpr int kSearchPoints = 512;
 constexpr int kSearchRounds = 300;
+constexpr int kThoroughSearchRounds = 4000;  // where one match in four is right
 
 using Vector8 = Eigen::Matrix<double, 8, 1>;
 using Matrix8 = Eigen::Matrix<double, 8, 8>;
@@ -84,15 +88,15 @@ double robustSigma(const std::vector<float>& squares, const std::vector<float>& 
 
 /// One reweighted Gauss–Newton step in normalised coordinates; returns the largest change of a parameter, or nothing
 /// when no point lies within the cutoff.
-std::optional<double> improve(const Correspondences& points, HomographyParameters& h, double cutoff, double deviation) {
-    // Perspective changes between neighbouring frames bend the borders of the picture by no more than a few px; this
-    // holds the two projective numbers where the points do not (few points, or all in one part of the picture).
-    constexpr double kProjectiveDeviation = 0.004;
+/// `projective_deviation` holds the two projective numbers where the points do not (few points, or all in one part of
+/// the picture).
+std::optional<double> improve(const Correspondences& points, HomographyParameters& h, double cutoff, double deviation,
+                              double projective_deviation) {
     const NormalSums sums = sumNormalEquations(points, h, static_cast<float>(cutoff));
     if (!(sums.weight > 0)) return std::nullopt;
     Matrix8 a = matrixFrom(sums);
     Vector8 b = rightSideFrom(sums);
-    const double hold = deviation * deviation / (kProjectiveDeviation * kProjectiveDeviation);
+    const double hold = deviation * deviation / (projective_deviation * projective_deviation);
     a(6, 6) += hold;
     a(7, 7) += hold;
     b[6] += hold * double(h[6]);
@@ -180,7 +184,16 @@ HomographyEstimator::HomographyEstimator(const HomographyOptions& options, cv::S
     : options_(options),
       centre_x_((image.width - 1) / 2.0),
       centre_y_((image.height - 1) / 2.0),
-      per_px_(2.0 / std::max({image.width, image.height, 1})) {}
+      per_px_(2.0 / std::max({image.width, image.height, 1})),
+      projective_deviation_(kProjectiveDeviation),
+      search_rounds_(kSearchRounds) {}
+
+HomographyEstimator HomographyEstimator::anyPerspective() const {
+    HomographyEstimator free = *this;
+    free.projective_deviation_ = kAnyProjectiveDeviation;
+    free.search_rounds_ = kThoroughSearchRounds;
+    return free;
+}
 
 cv::Matx33d HomographyEstimator::normalisedFromPx() const {
     return {per_px_, 0, -per_px_ * centre_x_, 0, per_px_, -per_px_ * centre_y_, 0, 0, 1};
@@ -222,7 +235,7 @@ std::optional<HomographyFit> HomographyEstimator::refine(const Correspondences& 
         // Never wider again: a wider cutoff lets a crowd of vehicles in, which widens it further.
         cutoff = std::min(cutoff, std::max(kTukey * sigma, kSmallestCutoffPx * coarseness * per_px_));
         if (step > 2) cutoff = std::min(cutoff, 3 * farthest_px * per_px_);
-        const auto change = improve(p, h, cutoff, std::max(sigma, 0.02 * per_px_));
+        const auto change = improve(p, h, cutoff, std::max(sigma, 0.02 * per_px_), projective_deviation_);
         if (!change) return std::nullopt;
         if (step > 1 && *change < converged) break;
     }
@@ -271,7 +284,7 @@ std::optional<cv::Matx33d> HomographyEstimator::search(const Correspondences& po
     HomographyParameters best{};
     std::vector<float> squares;
     const auto count = std::size_t(sample.size());
-    int rounds = kSearchRounds;
+    int rounds = search_rounds_;
     for (int round = 0; round < rounds; ++round) {
         std::size_t at[4] = {};
         bool distinct = true;
@@ -291,7 +304,9 @@ std::optional<cv::Matx33d> HomographyEstimator::search(const Correspondences& po
             HomographyParameters improved = h;
             bool sound = true;
             for (int step = 0; step < 3 && sound; ++step) {
-                sound = improve(sample, improved, 2 * tolerance_px * per_px_, 0.3 * tolerance_px * per_px_).has_value();
+                sound = improve(sample, improved, 2 * tolerance_px * per_px_, 0.3 * tolerance_px * per_px_,
+                                projective_deviation_)
+                            .has_value();
             }
             const Cost then = sound ? costOf(sample, improved, tolerance, squares) : cost;
             if (then.sum < cost.sum) {

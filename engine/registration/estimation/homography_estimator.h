@@ -42,6 +42,11 @@ class HomographyEstimator {
  public:
     HomographyEstimator(const HomographyOptions& options, cv::Size image);
 
+    /// The same for pictures that may show the ground from anywhere. Between neighbouring frames perspective changes
+    /// little, and many points are needed to say otherwise; across a jump or in a sharp turn near the ground it changes
+    /// by much. Searches more thoroughly, too.
+    HomographyEstimator anyPerspective() const;
+
     /// Refines `start` on all points. Empty when there are too few. `coarseness` widens all distances, for points that
     /// were located on a pyramid level; points farther than `first_cutoff_px` from where `start` takes them never
     /// count.
@@ -69,7 +74,9 @@ class HomographyEstimator {
     HomographyOptions options_;
     double centre_x_;
     double centre_y_;
-    double per_px_;  ///< normalised units per px; the longer side spans 2 units
+    double per_px_;                ///< normalised units per px; the longer side spans 2 units
+    double projective_deviation_;  ///< expected change of the two projective numbers, in 1 / normalised units
+    int search_rounds_;
 };
 
 /// Whether a map between two pictures of this size is one that a camera makes between frames: no mirror image, no

@@ -61,7 +61,7 @@ std::vector<cv::DMatch> matched(const Features& from, const Features& to) {
 }  // namespace
 
 std::optional<HomographyFit> searchFeatures(const ImagePyramid& from, const ImagePyramid& to,
-                                            const HomographyEstimator& estimator) {
+                                            const HomographyEstimator& between_frames) {
     const int level = levelFor(from);
     const PaddedPicture& picture = from.level(level);
     if (std::min(picture.width(), picture.height()) < kShortestSide) return std::nullopt;
@@ -74,6 +74,7 @@ std::optional<HomographyFit> searchFeatures(const ImagePyramid& from, const Imag
                    ImagePyramid::fromLevel(now.points[static_cast<std::size_t>(match.trainIdx)].pt, level));
     }
     if (points.size() < kFewestAgreeing) return std::nullopt;
+    const HomographyEstimator estimator = between_frames.anyPerspective();
     const double tolerance = kTolerancePx * double(1 << level);
     std::optional<HomographyFit> best;
     for (const MotionModel model : {MotionModel::similarity, MotionModel::homography}) {
