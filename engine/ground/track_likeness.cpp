@@ -56,11 +56,12 @@ struct DrivenPath {
 struct LikenessFacts {
     std::map<int, DrivenPath> paths;  ///< by stretch
     double way = 0;                   ///< m on the ground
+    double metres = 0;                ///< the same by the scale of its places
     double seconds = 0;               ///< driven
     double length = 0;                ///< m by the scale there, median
     double width = 0;
     bool drives() const { return way > 0; }
-    double speed() const { return seconds > 0 ? way / seconds : 0; }
+    double speed() const { return seconds > 0 ? metres / seconds : 0; }
 };
 
 double medianOrNone(std::vector<double> values) {
@@ -91,12 +92,15 @@ class PathMaker {
         std::vector<PathPlace> driven;
         std::vector<double> way;  // up to each
         double total = 0;
+        double metres = 0;
         double seconds = 0;
         for (std::size_t i = 0; i < path.samples.size(); ++i) {
             const GroundSample& sample = path.samples[i];
             if (path.measured && !sample.moving && !driven.empty()) continue;
             if (!driven.empty()) {
-                total += cv::norm(sample.at * unit_ - driven.back().at);
+                const double step = cv::norm(sample.at * unit_ - driven.back().at);
+                total += step;
+                metres += step * sample.by_place;
                 if (i > 0) seconds += secondsBetween(path, i - 1, i, run_.footage.scale);
             }
             driven.push_back({sample.at * unit_, sample.speed * unit_, sample.by_place});
@@ -113,6 +117,7 @@ class PathMaker {
             made.places = atEvenSteps(driven, way);
             made.way = total;
             facts.way += total;
+            facts.metres += metres;
             facts.seconds += seconds;
         }
         setBounds(made);

@@ -109,6 +109,16 @@ TEST(LikenessByHand, InAnObliqueViewSpeedsAreThoseOfThePlace) {
     }
 }
 
+TEST(LikenessByHand, WhoNeverMetIsComparedByTheSpeedsOfTheirPlaces) {
+    // Far above 10 m/s in the middle's measure, where a pixel is twice as long; below it 20: both drive 20 m/s.
+    test::DrivenTracks scene = sceneWithoutNoise();
+    scene.drive({20, metresOfRow(49.5)}, 0, {{12, 36, 36}});
+    scene.drive({20, metresOfRow(299.5)}, 0, {{6, 72, 72}});
+    const TrackLikeness found = likeFirst(runOf(scene, true)).at(0);
+    EXPECT_EQ(found.path, 0);
+    EXPECT_NEAR(found.speed, 1, 1e-3);
+}
+
 TEST(LikenessByHand, TwoPicturesTellASpeedToo) {
     for (const double row : {49.5, 299.5, 549.5}) {
         test::DrivenTracks scene = sceneWithoutNoise();

@@ -152,7 +152,7 @@ TEST(StillPixels, EveryVehicleOfTheEventIsOutlinedAndNoOther) {
 }
 
 TEST(CloseUpPixels, APlaceWithoutABoxIsShownFiveTimesAsLargeInTheMiddle) {
-    // 64 × 48 px around (200, 100), the pixel in whose upper left corner the middle lies; a patch of 8 px on it.
+    // 64 × 48 px around the middle of pixel (200, 100), which begins a patch of 8 px.
     const ReviewReportInput input = inputOf({});
     Frame frame = greyFrame(50);
     frame.gray(cv::Rect(200, 100, 8, 8)).setTo(250);
@@ -160,8 +160,8 @@ TEST(CloseUpPixels, APlaceWithoutABoxIsShownFiveTimesAsLargeInTheMiddle) {
     ASSERT_EQ(close.size(), cv::Size(320, 240));
     for (const bool across : {true, false}) {
         const cv::Range bright = brightIn(close, across ? 140 : 180, across);
-        EXPECT_NEAR(bright.start, across ? 160 : 120, 1) << across;
-        EXPECT_NEAR(bright.end, across ? 199 : 159, 1) << across;
+        EXPECT_NEAR(bright.start, across ? 157.5 : 117.5, 1) << across;
+        EXPECT_NEAR(bright.end, across ? 196.5 : 156.5, 1) << across;
     }
 }
 
@@ -178,8 +178,8 @@ TEST(CloseUpPixels, ABoxLiesOnItsVehicle) {
     EXPECT_NEAR(across.end - across.start + 1, 12 * 4, 2);
     EXPECT_NEAR(down.end - down.start + 1, 6 * 4, 2);
     const cv::Point middle((across.start + across.end) / 2, (down.start + down.end) / 2);
-    EXPECT_NEAR(middle.x, 160, 2) << "half a pixel of the video";
-    EXPECT_NEAR(middle.y, 120, 2);
+    EXPECT_NEAR(middle.x, 159.5, 1);
+    EXPECT_NEAR(middle.y, 119.5, 1);
     for (const cv::Point side : {cv::Point(-40, 0), cv::Point(40, 0), cv::Point(0, -28), cv::Point(0, 28)})
         EXPECT_TRUE(inkAt(close, middle.x + side.x, middle.y + side.y)) << side;
     for (const cv::Point bare : {cv::Point(-46, 0), cv::Point(-34, 0), cv::Point(34, 0), cv::Point(46, 10),

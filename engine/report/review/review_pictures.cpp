@@ -95,7 +95,8 @@ std::string eventCloseUp(const ReviewScene& scene, const Event& event, const Fra
     Cutting close;
     close.zoom = kCloseUpHeight / height;
     const cv::Size size(cvRound(kCloseUpHeight * kCloseUpShape), kCloseUpHeight);
-    close.corner = middle - cv::Point2d(size.width, size.height) * (0.5 / close.zoom);
+    // Half a pixel of the video lies before the centre of the first.
+    close.corner = middle - cv::Point2d(size.width, size.height) * (0.5 / close.zoom) + cv::Point2d(0.5, 0.5);
     const double offset = (close.zoom - 1) / 2;
     const cv::Matx23d video_from_close(1 / close.zoom, 0, close.corner.x - offset / close.zoom,  //
                                        0, 1 / close.zoom, close.corner.y - offset / close.zoom);
