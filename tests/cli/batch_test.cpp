@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "cli/batch/batch_inputs.h"
+#include "core/utc_time.h"
 #include "io/video/video_writer.h"
 #include "store/database/file_lock.h"
 #include "store/project/project_file.h"
@@ -163,8 +164,6 @@ TEST_F(Batches, aListOfPartsIsOneVideoAndItsPartsAreNone) {
     EXPECT_FALSE(fs::exists(at("out/rec/a.eyrie")));
 
     write("in/rec/whole.parts", "file\nb.mp4\n");
-    // Later than its run began, by whole seconds.
-    fs::last_write_time(folder / "in/rec/whole.parts", fs::file_time_type::clock::now() + std::chrono::seconds(5));
     const auto again = batch();
     EXPECT_THAT(inState("done"), ElementsAre("rec/a.mp4", "rec/whole.parts")) << again.output;
     EXPECT_EQ(runsOf("out/rec/whole.eyrie").back().frames_done, kFrames);
@@ -377,6 +376,17 @@ TEST_F(Batches, aFileWithOtherContentsIsDoneAgain) {
     ASSERT_EQ(batch({"--frames", "0:3"}).exit_code, 0);
     fs::last_write_time(folder / "in/a.mp4", fs::file_time_type::clock::now() + std::chrono::seconds(5));
     EXPECT_THAT(batch({"--frames", "0:3"}).output, HasSubstr("1 file: 1 done"));
+    EXPECT_EQ(runsOf("out/a.eyrie").size(), 2U);
+}
+
+TEST_F(Batches, aFileThatChangedInTheSecondOfItsRunIsDoneAgain) {
+    put("in/a.mp4");
+    ASSERT_EQ(batch({"--frames", "0:1"}).exit_code, 0);
+    const std::chrono::microseconds began(utcOf(runsOf("out/a.eyrie").back().started_utc).value());
+    fs::last_write_time(folder / "in/a.mp4",
+                        fs::file_time_type::clock::from_sys(std::chrono::sys_time<std::chrono::nanoseconds>(
+                            began + std::chrono::nanoseconds(999'999'999))));
+    EXPECT_THAT(batch({"--frames", "0:1"}).output, HasSubstr("1 file: 1 done"));
     EXPECT_EQ(runsOf("out/a.eyrie").size(), 2U);
 }
 
