@@ -60,6 +60,27 @@ TEST(ScaleOutcomes, OneAssumptionAloneIsTheScale) {
     }
 }
 
+TEST(ScaleOutcomes, WhereLittleLooksLikeVehiclesTheAssumedScaleHasASay) {
+    // 24 of so many detections look like vehicles; relief makes the others.
+    const auto found = [](double detections) {
+        std::vector<ScaleOutcome> outcomes(kScaleAssumptions);
+        outcomes.at(1) = {detections, 24, 200, 4, 4};
+        return estimateOfScale(outcomes).value();
+    };
+    const double of_a_step = std::pow(std::log(1.4), 2) / 12 / 4;
+    const double assumed = 0.25 / 0.056;
+    const struct {
+        double detections, doubt, drawn;
+    } cases[] = {{24, 0, 0},  {80, 0, 0},          {96, 0.5, 0}, {120, 1, 0},
+                 {150, 1, 0}, {24 / 0.13, 1, 0.5}, {240, 1, 1},  {999, 1, 1}};
+    for (const auto& one : cases) {
+        EXPECT_NEAR(found(one.detections).gsd_m_per_px, 0.056 * std::pow(assumed, 0.36 * one.drawn), 1e-9)
+            << one.detections;
+        const double own = 0.11 + one.doubt * (0.45 - 0.11);
+        EXPECT_NEAR(found(one.detections).uncertainty, std::exp(1.645 * std::sqrt(own * own + of_a_step)), 1e-9);
+    }
+}
+
 TEST(ScaleOutcomes, NeighboursPullAsTheSquaresOfTheirScores) {
     EXPECT_NEAR(estimate({{4, 1}, {5, 1}})->gsd_m_per_px, assumedGsd(4) * std::sqrt(1.4), 1e-12);
     EXPECT_NEAR(estimate({{4, 1}, {5, 0.5}})->gsd_m_per_px, assumedGsd(4) * std::pow(1.4, 0.2), 1e-12);

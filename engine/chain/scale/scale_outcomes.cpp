@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
+
+#include "core/values/scene_scale.h"
 
 namespace eyrie {
 namespace {
@@ -12,9 +15,19 @@ constexpr double kStep = 1.4;       ///< from one assumption to the next
 constexpr double kFewestLooks = 8;  ///< sure windows under the best assumption; fewer are chance
 constexpr int kReach = 2;           ///< assumptions on both sides of the best one that have a say
 constexpr double kOwnError = 0.11;  ///< standard error of the logarithm where very many vehicles drive
+/// The same where hardly anything that is detected looks like a vehicle: over relief, at night, in haze.
+constexpr double kErrorInDoubt = 0.45;
+/// Shares of the detections that look like vehicles: below the first of a pair fully, above the second not at all.
+constexpr std::pair kDoubted(0.2, 0.3);  ///< what they tell is doubted
+constexpr std::pair kDrawn(0.1, 0.16);   ///< … and drawn to the scale that would be assumed without them
+constexpr double kDrawnBy = 0.36;        ///< share of the logarithm: the doubt against a spread of .6 among videos
 /// Of the logarithm within one step of the assumptions.
 const double kStepVariance = std::log(kStep) * std::log(kStep) / 12;
 constexpr double kSure = 1.645;  ///< standard errors that hold 90 %
+
+double partBelow(double share, const std::pair<double, double>& limits) {
+    return std::clamp((limits.second - share) / (limits.second - limits.first), 0.0, 1.0);
+}
 
 }  // namespace
 
@@ -22,11 +35,13 @@ double assumedGsd(int i) {
     return kFinest * std::pow(kStep, i);
 }
 
+double ScaleOutcome::alike() const {
+    return detections > 0 ? looks / detections : 0;
+}
+
 double ScaleOutcome::score() const {
-    if (looks <= 0) return 0;
-    const double alike = looks / detections;
     const double car_sized = (cars + 1) / (tracks + 2);
-    return decision * alike * alike * car_sized * car_sized;
+    return decision * alike() * alike() * car_sized * car_sized;
 }
 
 bool ScaleOutcome::showsTraffic() const {
@@ -64,9 +79,11 @@ std::optional<ScaleEstimate> estimateOfScale(const std::vector<ScaleOutcome>& ou
     const double middle = sum / weights;
     const double spread = squares / weights - middle * middle + kStepVariance;
     ScaleEstimate estimate;
-    estimate.gsd_m_per_px = std::exp(middle);
+    const double drawn = kDrawnBy * partBelow(peak.alike(), kDrawn);
+    estimate.gsd_m_per_px = std::exp(middle + drawn * (std::log(SceneScale().gsd_m_per_px) - middle));
     estimate.vehicles = static_cast<int>(peak.cars);
-    estimate.uncertainty = std::exp(kSure * std::sqrt(kOwnError * kOwnError + spread / peak.cars));
+    const double own_error = kOwnError + partBelow(peak.alike(), kDoubted) * (kErrorInDoubt - kOwnError);
+    estimate.uncertainty = std::exp(kSure * std::hypot(own_error, std::sqrt(spread / peak.cars)));
     return estimate;
 }
 

@@ -26,6 +26,8 @@ struct ScaleOutcome {
     double tracks = 0;
     double cars = 0;  ///< tracks of a car's size
 
+    /// Share of the detections that look like whole vehicles.
+    double alike() const;
     /// Much that looks like vehicles, and little that does not: where the assumption is too fine cars do not fit the
     /// window, where it is too coarse they fall into pieces, and neither relief nor glare looks like a car at any.
     double score() const;
@@ -40,7 +42,8 @@ bool isCarSized(double length_m, double width_m);
 
 /// The middle of the scores around the best one, of one outcome for each assumption. On twelve clips it lay between .82
 /// and 1.06 of the truth; rather too fine than too coarse, since a scale too coarse by a tenth costs more. Nothing
-/// where too little looks like vehicles.
+/// where too little looks like vehicles. Where most of what is detected does not, it is less sure, and where nearly
+/// nothing does, the scale that would be assumed without it has a say, too.
 std::optional<ScaleEstimate> estimateOfScale(const std::vector<ScaleOutcome>& outcomes);
 
 }  // namespace eyrie
