@@ -263,4 +263,34 @@ TEST(ScenePreset, seedsGiveOtherScenesOfTheSameKind) {
     EXPECT_GE(vehicles, 12U);
 }
 
+// Figures that were measured on a scene hold only for the same traffic.
+TEST(ScenePreset, aSeedGivesTheSameTrafficEverywhere) {
+    struct Known {
+        const char* name;
+        std::size_t objects;
+        double x, y;  ///< px, of all boxes together
+    };
+    for (const Known& known : {Known{"seq1", 80, 29084.83, 22710.68},
+                               {"seq2", 90, 32476.51, 20583.39},
+                               {"egtest01", 17, 2634.61, 1973.23},
+                               {"demo", 241, 77234.74, 58517.73},
+                               {"stops", 62, 11744.55, 9579.84},
+                               {"patrol", 15, 6198.62, 3518.32}}) {
+        const SceneDescription scene = scenePreset(known.name);
+        const std::vector<StandingThing> nothing;
+        const SceneTruth truth(scene, nothing);
+        std::size_t objects = 0;
+        cv::Point2d places(0, 0);
+        for (int i = 0; i <= 4; ++i) {
+            for (const SceneObject& object : truth.objectsOnOpenGround(i * (scene.frame_count - 1) / 4)) {
+                ++objects;
+                places += object.box.centre;
+            }
+        }
+        EXPECT_EQ(objects, known.objects) << known.name;
+        EXPECT_NEAR(places.x, known.x, 0.02) << known.name;
+        EXPECT_NEAR(places.y, known.y, 0.02) << known.name;
+    }
+}
+
 }  // namespace eyrie::preset_test
