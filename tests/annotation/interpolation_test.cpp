@@ -55,6 +55,21 @@ TEST(Interpolation, ConstantAccelerationIsExactOnASmoothPathWithThreeKeyframes) 
         5);
 }
 
+TEST(Interpolation, TwoKeyframesCloseTogetherHardlyChangeTheLongWayBefore) {
+    const CameraMotion standing = CameraMotion::standing(0, 41);
+    for (const bool heading_set : {false, true}) {
+        std::vector<Keyframe> keyframes;
+        for (const auto& [frame, x] : {std::pair(0, 50.0), {40, 250.0}, {41, 262.0}})
+            keyframes.push_back(keyframe(frame, {{x, 60}, 20, 9, 0}, heading_set));
+        const auto car = object(1, keyframes, 41);
+        for (int frame = 0; frame <= 40; ++frame) {
+            const OrientedBox box = boxAt(car, frame, standing).box;
+            EXPECT_NEAR(box.centre.x, 50 + 5 * frame, 6) << heading_set << ", frame " << frame;
+            EXPECT_NEAR(box.centre.y, 60, 1e-9);
+        }
+    }
+}
+
 TEST(Interpolation, ACarThatStopsNeverRunsOnOrBack) {
     std::vector<Keyframe> keyframes;
     const double x[] = {0, 50, 100, 100, 100, 160};
