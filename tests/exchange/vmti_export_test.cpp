@@ -190,6 +190,25 @@ TEST_F(VmtiExport, PicturesAreCopiedToTheBit) {
     }
 }
 
+TEST(VmtiRemarks, TellWhatIsMissingWhereSomethingIs) {
+    VmtiReport report;
+    report.clock_origin = "the video";
+    const std::string last = "written from what is publicly known about ST 0903.5; not checked with a validator";
+    EXPECT_THAT(remarksOn(report, "none"), testing::ElementsAre("times: the video", "places: none", last));
+    report.without_place = 3;
+    EXPECT_EQ(remarksOn(report, "none").size(), 3U) << "that none has a place is told already";
+    report.place_origin = "the map";
+    report.without_stamp = 1;
+    EXPECT_THAT(remarksOn(report, "none"),
+                testing::ElementsAre("times: the video", "places: the map", "3 targets have no place",
+                                     "1 frame is left out: no stamp in the video belongs to the picture", last));
+    report.without_place = 1;
+    report.without_stamp = 2;
+    EXPECT_THAT(remarksOn(report, "none"),
+                testing::ElementsAre("times: the video", "places: the map", "1 target has no place",
+                                     "2 frames are left out: no stamp in the video belongs to the picture", last));
+}
+
 TEST_F(VmtiExport, WithoutTimesNothingIsWritten) {
     film("film.ts");
     try {
