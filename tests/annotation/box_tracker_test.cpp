@@ -117,6 +117,29 @@ TEST(BoxTracker, LiesOnTheVehicleToAFifthOfAPixelInTheMean) {
     }
 }
 
+TEST(BoxTracker, WithoutCornersTheFirstStepMayGoAlongAndAcross) {
+    FollowOptions options;
+    options.max_corners = 1;
+    const cv::Mat ground = test::groundTexture({200, 160}, 1, 2.5);
+    cv::Mat car(25, 41, CV_8UC1,
+                cv::Scalar(60));  // what lies along it fits wherever it is across, and the other way round
+    cv::rectangle(car, {0, 10, 41, 3}, cv::Scalar(200), cv::FILLED);
+    cv::rectangle(car, {18, 0, 3, 25}, cv::Scalar(200), cv::FILLED);
+    cv::GaussianBlur(car, car, {}, 1);
+    for (const cv::Point2d way : {cv::Point2d(7, 6), {-6, 7}, {7, -7}}) {
+        const auto placeIn = [&](FrameIndex frame) { return cv::Point2d(90, 70) + way * frame; };
+        const auto gray = [&](FrameIndex frame) {
+            cv::Mat picture = ground.clone();
+            car.copyTo(picture(cv::Rect(cv::Point(placeIn(frame)) - cv::Point(20, 12), car.size())));
+            return picture;
+        };
+        const FollowResult result =
+            followBox({placeIn(0), 40, 24, 0}, 0, 1, gray, CameraMotion::standing(0, 1), options);
+        ASSERT_EQ(result.boxes.size(), 1U) << way << result.reason;
+        EXPECT_LT(cv::norm(result.boxes[0].box.centre - placeIn(1)), 0.6) << way;
+    }
+}
+
 TEST(BoxTracker, StopsUnderABridgeAndSaysWhy) {
     const DrawnScene scene(true);
     const auto gray = [&](FrameIndex frame) { return scene.picture(frame); };

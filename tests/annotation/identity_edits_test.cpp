@@ -187,6 +187,13 @@ TEST(IdentityEdits, DeleteBeforeAndAfter) {
     EXPECT_EQ(deleteAfter(car, -1, flying).removed, std::vector<ObjectId>{1});
 }
 
+TEST(IdentityEdits, OneFrameIsLeftOfWhatIsDeletedBesideIt) {
+    const auto car = winding(1, 0, 160, 50);
+    expectShows(objectOf(deleteAfter(car, 0, flying), 1), car, 0, 0);
+    expectShows(objectOf(deleteAfter(car, 1, flying), 1), car, 0, 1);
+    expectShows(objectOf(deleteBefore(car, 160, flying), 1), car, 160, 160);
+}
+
 TEST(IdentityEdits, FlagsOfARangeEndWithTheRange) {
     auto car = winding(1, 0, 160, 50);
     car.keyframes[6].occlusion = Occlusion::partly;  // frame 90

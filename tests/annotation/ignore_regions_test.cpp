@@ -46,6 +46,24 @@ TEST(IgnoreRegions, StandInTheImageOrOnTheGround) {
     EXPECT_TRUE(regionsAt(set, 60, CameraMotion())[0].carried);
 }
 
+TEST(IgnoreRegions, ReachBeyondThePictureAndEndAtTheHorizon) {
+    // A camera that tilts: what lies at y > 500 in frame 10 is beyond the horizon of frame 11.
+    Homography tilt;
+    tilt.matrix = {1, 0, 0, 0, 1, 0, 0, -0.002, 1};
+    tilt.from_frame = 10;
+    tilt.to_frame = 11;
+    const CameraMotion camera(std::vector<Homography>{tilt});
+    AnnotationSet set;
+    set.regions[1] = region(1, RegionAnchor::ground, {{100, -60}, {200, -60}, {200, 200}, {100, 200}});
+    set.regions[2] = region(2, RegionAnchor::ground, {{100, 300}, {200, 300}, {200, 600}, {100, 600}});
+    const auto regions = regionsAt(set, 11, camera);
+    ASSERT_EQ(regions.size(), 2U);
+    EXPECT_TRUE(regions[0].carried);
+    EXPECT_NEAR(regions[0].polygon[0].y, -60 / 1.12, 1e-6);
+    EXPECT_NEAR(regions[0].polygon[2].y, 200 / 0.6, 1e-6);
+    EXPECT_FALSE(regions[1].carried);
+}
+
 TEST(IgnoreRegions, ContainTheirInsideAndTheirBorder) {
     const std::vector<cv::Point2d> hook{{0, 0}, {10, 0}, {10, 10}, {6, 10}, {6, 4}, {0, 4}};
     EXPECT_TRUE(contains(hook, {1, 1}));

@@ -55,6 +55,23 @@ TEST(Interpolation, ConstantAccelerationIsExactOnASmoothPathWithThreeKeyframes) 
         5);
 }
 
+TEST(Interpolation, TwoKeyframesCloseTogetherHardlyChangeTheLongWayBefore) {
+    const CameraMotion standing = CameraMotion::standing(0, 41);
+    const double heading = 0.3;
+    const cv::Point2d ahead(std::cos(heading), std::sin(heading));
+    for (const bool heading_set : {false, true}) {
+        std::vector<Keyframe> keyframes;
+        for (const auto& [frame, driven] : {std::pair(0, 0.0), {40, 200.0}, {41, 212.0}})
+            keyframes.push_back(keyframe(frame, {cv::Point2d(50, 60) + driven * ahead, 20, 9, heading}, heading_set));
+        const auto car = object(1, keyframes, 41);
+        for (int frame = 0; frame <= 40; ++frame) {
+            const cv::Point2d driven = boxAt(car, frame, standing).box.centre - cv::Point2d(50, 60);
+            EXPECT_NEAR(driven.dot(ahead), 5 * frame, 6) << heading_set << ", frame " << frame;
+            EXPECT_NEAR(driven.cross(ahead), 0, 1e-6);
+        }
+    }
+}
+
 TEST(Interpolation, ACarThatStopsNeverRunsOnOrBack) {
     std::vector<Keyframe> keyframes;
     const double x[] = {0, 50, 100, 100, 100, 160};

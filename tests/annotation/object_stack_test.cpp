@@ -78,6 +78,18 @@ LabelledObject carWith(cv::Point2d wrong_by) {
     return test::object(1, {test::keyframe(0, first, true), test::keyframe(kLast, last, true)}, kLast);
 }
 
+TEST(ObjectStack, LooksAtTheNearestFramesUpToTheFirstAndTheLast) {
+    const auto lookedAt = [](FrameIndex frame) {
+        NoisyScene scene(5);
+        stackObject(carWith({}), frame, CameraMotion::standing(0, kLast),
+                    [&](FrameIndex at) { return scene.picture(at); }, {.layers = 7});
+        return scene.asked;
+    };
+    EXPECT_EQ(lookedAt(20), (std::set<FrameIndex>{17, 18, 19, 20, 21, 22, 23}));
+    EXPECT_EQ(lookedAt(kLast - 1), (std::set<FrameIndex>{34, 35, 36, 37, 38, 39, 40}));
+    EXPECT_EQ(lookedAt(1), (std::set<FrameIndex>{0, 1, 2, 3, 4, 5, 6}));
+}
+
 TEST(ObjectStack, TakesTheNoiseAway) {
     NoisyScene scene(25);
     const auto gray = [&](FrameIndex frame) { return scene.picture(frame); };

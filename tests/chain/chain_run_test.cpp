@@ -58,6 +58,26 @@ TEST(ChainRun, followsEveryVehicleUnderAPanningCamera) {
     EXPECT_GE(followed, wanted * 9 / 10);
 }
 
+TEST(ChainRun, tellsHowManyFramesAreDoneAndHowLongTheOthersTake) {
+    test::MovingScene scene;
+    scene.frames = 12;
+    test::MemorySource source(scene);
+    struct : ChainObserver {
+        void onFrame(const std::shared_ptr<const FrameResult>&, const Frame&) override {}
+        void onProgress(const RunProgress& progress) override { told.push_back(progress); }
+        std::vector<RunProgress> told;
+    } observer;
+    ChainRun(ChainOptions{}, scale()).run(source, {}, observer, {});
+    ASSERT_EQ(observer.told.size(), 12U);
+    for (int i = 0; i < 12; ++i) {
+        const RunProgress& at = observer.told[std::size_t(i)];
+        EXPECT_EQ(at.frames_done, i + 1);
+        EXPECT_EQ(at.frames_total, 12);
+        EXPECT_EQ(at.frames_per_second > 0, i > 0) << "two frames tell a speed";
+        EXPECT_NEAR(at.seconds_left * at.frames_per_second, i > 0 ? 11 - i : 0, 1e-6);
+    }
+}
+
 // Tracks are scored by it: without it false alarms stay.
 TEST(ChainRun, theClassifierIsAskedAboutBoxesInAnObliqueViewToo) {
     test::MovingScene scene;

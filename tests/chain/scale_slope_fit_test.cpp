@@ -164,8 +164,16 @@ TEST(ViewEstimation, ACarThatGrowsOnItsWayShowsTheHorizonOfALowFlight) {
     SourceOptions low;
     low.frame_rate_hz = 10;
     const auto source = openSource(test::sharedData("uav123_car16/frames"), low);
-    const auto view = estimateView(*source, {36, 78}, ChainOptions{}, 10, {});
+    std::vector<RunProgress> told;
+    const auto view = estimateView(*source, {36, 78}, ChainOptions{}, 10, {},
+                                   [&](const RunProgress& progress) { told.push_back(progress); });
     ASSERT_TRUE(view);
+    EXPECT_EQ(std::count_if(told.begin(), told.end(),
+                            [](const RunProgress& at) { return at.frames_done == at.frames_total; }),
+              2)
+        << "one look for what moves, one at what fits it";
+    for (const RunProgress& at : told) EXPECT_LE(at.frames_done, at.frames_total);
+    EXPECT_EQ(told.back().frames_done, told.back().frames_total);
     // The horizon lies at y = 108 when the car is at y = 175, where it is 60 px long.
     EXPECT_NEAR(view->slope.centre_y - 1 / view->slope.down_per_px, 108, 15);
     EXPECT_NEAR(view->middle.gsd_m_per_px, 0.075, 0.02);

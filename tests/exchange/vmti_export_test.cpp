@@ -150,6 +150,12 @@ TEST_F(VmtiExport, EveryFrameOfTheTracksHasASetAtTheTimeOfItsPicture) {
             // A step of the code for longitudes is 2.4e-7.
             EXPECT_NEAR(target.place->longitude_deg, 11 + (20 + 3 * frame) * 1e-6, 2.5e-7);
             EXPECT_EQ(target.track, sets[0].frame.targets[0].track) << "one name for the whole track";
+            if (std::string(name) == "film.ts") {
+                // FNV-1a of the name, what the begin adds to it, version 8, and the number in the end: the same always.
+                const std::array<std::uint8_t, 16> known{0xa4, 0x5d, 0xf8, 0x72, 0x3a, 0x44, 0x82, 0xe2,
+                                                         0x80, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x07};
+                EXPECT_EQ(target.track, known);
+            }
             EXPECT_EQ(target.first_utc_us, kFilmBegin + 200'000);
             EXPECT_EQ(target.last_utc_us, set.utc_us) << "as far as is known by then";
             EXPECT_EQ(target.detection, vmti::Detection::active);
@@ -188,6 +194,25 @@ TEST_F(VmtiExport, PicturesAreCopiedToTheBit) {
         EXPECT_EQ(cv::norm(a, b, cv::NORM_INF), 0) << frame;
         EXPECT_EQ(before->timeOf(frame), after->timeOf(frame));
     }
+}
+
+TEST(VmtiRemarks, TellWhatIsMissingWhereSomethingIs) {
+    VmtiReport report;
+    report.clock_origin = "the video";
+    const std::string last = "written from what is publicly known about ST 0903.5; not checked with a validator";
+    EXPECT_THAT(remarksOn(report, "none"), testing::ElementsAre("times: the video", "places: none", last));
+    report.without_place = 3;
+    EXPECT_EQ(remarksOn(report, "none").size(), 3U) << "that none has a place is told already";
+    report.place_origin = "the map";
+    report.without_stamp = 1;
+    EXPECT_THAT(remarksOn(report, "none"),
+                testing::ElementsAre("times: the video", "places: the map", "3 targets have no place",
+                                     "1 frame is left out: no stamp in the video belongs to the picture", last));
+    report.without_place = 1;
+    report.without_stamp = 2;
+    EXPECT_THAT(remarksOn(report, "none"),
+                testing::ElementsAre("times: the video", "places: the map", "1 target has no place",
+                                     "2 frames are left out: no stamp in the video belongs to the picture", last));
 }
 
 TEST_F(VmtiExport, WithoutTimesNothingIsWritten) {

@@ -127,6 +127,8 @@ TEST(ExplanationLimits, OnlyChecksOfBoxesAtThePlaceAreTold) {
     };
     EXPECT_TRUE(isTold({2, 5, 10, 20}));
     EXPECT_TRUE(isTold({})) << "about the whole area";
+    EXPECT_TRUE(isTold({3.5, -12.5, 6, 30})) << "its middle lies 12 px ahead, but it is 30 px long";
+    EXPECT_TRUE(isTold({3.5, 11.5, 30, 6})) << "12 px aside, but it is 30 px wide";
     EXPECT_FALSE(isTold({6, 20, 2, 30})) << "its middle lies 20 px behind";
     EXPECT_FALSE(isTold({30, 14, 30, 2})) << "beside";
 }

@@ -337,7 +337,7 @@ TEST(ExplanationSteps, RowsOfTracksThatThePlaceConcerns) {
     claiming.detections = {0};
     elsewhere.id = 5;
     elsewhere.predicted = {{300, 100}, 18, 7, 0};
-    evidence.tracking->tracks = {here, claiming, elsewhere};
+    evidence.tracking->tracks = {here, elsewhere, claiming};
     evidence.tracking->relations = {{0, 3, 0.1, false}, {0, 4, 0.5, true}, {7, 4, 0.25, false}, {6, 5, 0.4, true}};
     evidence.tracking->min_overlap = 0.2;
     EXPECT_THAT(linesOf(told(evidence), "association"),
@@ -355,12 +355,12 @@ TEST(ExplanationSteps, RowsOfTracksThatThePlaceConcerns) {
     EXPECT_THAT(linesOf(told(evidence), "tracks"),
                 Contains("− track 3 ends: it lies on another that moves alike @tracking.suppress_duplicates"));
     EXPECT_EQ(told(evidence).sentence, "The detection here belongs to track 4, which lies elsewhere.");
-    evidence.tracking->tracks[1].detections = {0, 7};
+    evidence.tracking->tracks[2].detections = {0, 7};
     EXPECT_EQ(told(evidence).parameter, "tracking.split_merge") << "it is one of the parts of another";
-    evidence.tracking->tracks[1].detections = {7};
+    evidence.tracking->tracks[2].detections = {7};
     EXPECT_EQ(told(evidence).parameter, "tracking.split_merge");
-    evidence.tracking->tracks[1].detections = {0};
-    evidence.tracking->tracks[1].kind = AssociationKind::merged;
+    evidence.tracking->tracks[2].detections = {0};
+    evidence.tracking->tracks[2].kind = AssociationKind::merged;
     EXPECT_EQ(told(evidence).parameter, "tracking.split_merge");
 }
 

@@ -44,6 +44,13 @@ TEST(NaturalOrder, ComparesRunsOfDigitsAsNumbers) {
                 ElementsAre("9", "10", "a10c2", "a10c10", "b", "frame", "frame2", "frame002a", "frame2b", "frame10"));
 }
 
+TEST(NaturalOrder, ANameComesBeforeWhatGoesOnInAnyLetter) {
+    for (const std::string more : {"a", "1", "\xC3\xA4", "\xE8\xBB\x8A"}) {
+        EXPECT_TRUE(naturalOrder("frame", "frame" + more)) << more;
+        EXPECT_FALSE(naturalOrder("frame" + more, "frame")) << more;
+    }
+}
+
 TEST(NaturalOrder, IsAStrictOrder) {
     const std::vector<std::string> names = {
         "a1", "a01", "a001", "a1b", "a01b", "a", "", "a0", "a00", "12345678901234567890123", "1"};

@@ -190,6 +190,15 @@ TEST_F(PartSourceTest, APartOfOneFrameHasNoRateOfItsOwn) {
     EXPECT_EQ(source->timeOf(21) - source->timeOf(19), 80'000);
 }
 
+TEST_F(PartSourceTest, PartsOfOneFrameEachHaveTheRateOfTheFirst) {
+    for (int i = 0; i < 3; ++i) write("rec_" + std::to_string(i + 1) + ".mp4", i, 1);
+    const auto source = open();
+    EXPECT_EQ(source->info().frame_count, 3);
+    EXPECT_EQ(source->info().frame_rate_hz, openSource(folder_ / "rec_1.mp4", options_)->info().frame_rate_hz);
+    EXPECT_EQ(source->timeOf(2), 2 * source->timeOf(1));
+    EXPECT_GT(source->timeOf(1), 0);
+}
+
 TEST_F(PartSourceTest, ARateThatAProjectRemembersCountsForAll) {
     open();
     options_.remembered_rate_hz = 12.5;

@@ -364,6 +364,29 @@ TEST(DifferenceMotion, AreasComeInReadingOrder) {
     }
 }
 
+TEST(DifferenceMotion, OfAreasThatBeginInOneRowTheLeftComesFirstHoweverTheOtherGoesOn) {
+    const cv::Mat plain(240, 320, CV_8UC1, cv::Scalar(100));
+    cv::Mat shown = plain.clone();
+    cv::rectangle(shown, {90, 40, 20, 20}, cv::Scalar(220), cv::FILLED);
+    cv::rectangle(shown, {150, 40, 16, 60}, cv::Scalar(220), cv::FILLED);
+    cv::rectangle(shown, {40, 84, 126, 16}, cv::Scalar(220),
+                  cv::FILLED);  // from there back to the left, below the first
+    DifferenceMotion difference(optionsOf(MotionMethod::two_frame_difference), kScale);
+    MovingScene standing;
+    standing.camera_per_frame = {0, 0};
+    standing.vehicles.clear();
+    DifferenceResult result;
+    for (int i = 0; i < 6; ++i) {
+        Frame frame;
+        frame.index = i;
+        frame.gray = i < 5 ? plain : shown;
+        result = difference.next(frame, trueMotion(standing, i));
+    }
+    ASSERT_EQ(result.clusters.size(), 2U);
+    EXPECT_NEAR(result.clusters[0].box.centre.x, 100, 1);
+    EXPECT_GT(result.clusters[1].box.area(), 3000);
+}
+
 TEST(DifferenceMotion, ShowsWhatItSaw) {
     const MovingScene scene;
     const DifferenceResult result = lastOf(scene, optionsOf(MotionMethod::two_frame_difference));

@@ -87,6 +87,9 @@ TEST(ThreeFrameBoxes, AreMadeOfAreasAsTheParametersSay) {
     const std::vector<cv::Rect> two = {{50, 50, 6, 6}, {60, 50, 6, 6}};  // with 4 px between them
     EXPECT_EQ(found(two, "peer.joining", "2"), 2U);
     EXPECT_EQ(found(two, "peer.joining", "5"), 1U);
+    const std::vector<cv::Rect> apart = {{50, 50, 6, 6}, {64, 50, 6, 6}};  // with 8 px between them
+    EXPECT_EQ(found(apart, "peer.joining", "8"), 2U);
+    EXPECT_EQ(found(apart, "peer.joining", "11"), 1U);
     EXPECT_EQ(found(two, "peer.min_area", "36"), 2U);
     EXPECT_EQ(found(two, "peer.min_area", "37"), 0U);
     const std::vector<cv::Rect> speck = {{50, 50, 1, 1}};

@@ -42,4 +42,27 @@ inline std::string keyFacts(const SceneDescription& scene, std::size_t index) {
     return text.str();
 }
 
+/// How many there are of what stands, each with the sum of its places (x and y) and sizes: houses, blocks, trees,
+/// lamps, parked vehicles, patches of ground.
+inline std::string standingFacts(const SceneDescription& scene) {
+    std::ostringstream text;
+    const auto tell = [&](const char* name, const auto& things, const auto& sumOf) {
+        double sum = 0;
+        for (const auto& thing : things) sum += sumOf(thing);
+        text << name << things.size() << " " << std::llround(sum * 10);
+    };
+    const auto at = [](cv::Point2d place) { return place.x + 2 * place.y; };
+    tell("", scene.buildings, [&](const Building& b) { return at(b.centre) + b.length + b.width + b.height; });
+    tell("; ", scene.blocks, [&](const Block& b) { return at(b.centre) + b.length + b.width + b.bottom + b.top; });
+    tell("; ", scene.trees, [&](const Tree& t) { return at(t.position) + t.height + t.crown_radius; });
+    tell("; ", scene.posts, [&](const LampPost& post) { return at(post.position); });
+    tell("; ", scene.parked, [&](const ParkedVehicle& p) { return at(p.pose.position) + p.look.length; });
+    tell("; ", scene.patches, [&](const GroundPatch& patch) {
+        double sum = 0;
+        for (const cv::Point2d& corner : patch.outline) sum += at(corner);
+        return sum;
+    });
+    return text.str();
+}
+
 }  // namespace eyrie::test

@@ -263,4 +263,38 @@ TEST(ScenePreset, seedsGiveOtherScenesOfTheSameKind) {
     EXPECT_GE(vehicles, 12U);
 }
 
+// Figures that were measured on a scene hold only for the same town and traffic.
+TEST(ScenePreset, aSeedGivesTheSameTownAndTrafficEverywhere) {
+    struct Known {
+        const char* name;
+        std::size_t objects;
+        double x, y;  ///< px, of all boxes together
+        const char* standing;
+    };
+    for (const Known& known :
+         {Known{"seq1", 80, 29084.83, 22710.68,
+                "354 377429; 752 754663; 876 299296; 268 100385; 1431 737636; 5899 64193400"},
+          {"seq2", 90, 32476.51, 20583.39, "140 118259; 318 162719; 537 147410; 128 50138; 666 -56506; 2767 33147116"},
+          {"egtest01", 17, 2634.61, 1973.23, "0 0; 0 0; 0 0; 0 0; 0 0; 578 3447966"},
+          {"demo", 241, 77234.74, 58517.73, "114 88282; 277 175976; 315 36921; 106 -5280; 275 -76435; 1978 -938021"},
+          {"stops", 62, 11744.55, 9579.84, "118 97565; 278 155856; 225 8790; 114 -4302; 382 29327; 2149 -1656124"},
+          {"patrol", 15, 6198.62, 3518.32, "65 23629; 165 23966; 173 10867; 52 50; 186 6637; 1103 118297"}}) {
+        const SceneDescription scene = scenePreset(known.name);
+        const std::vector<StandingThing> nothing;
+        const SceneTruth truth(scene, nothing);
+        std::size_t objects = 0;
+        cv::Point2d places(0, 0);
+        for (int i = 0; i <= 4; ++i) {
+            for (const SceneObject& object : truth.objectsOnOpenGround(i * (scene.frame_count - 1) / 4)) {
+                ++objects;
+                places += object.box.centre;
+            }
+        }
+        EXPECT_EQ(objects, known.objects) << known.name;
+        EXPECT_NEAR(places.x, known.x, 0.02) << known.name;
+        EXPECT_NEAR(places.y, known.y, 0.02) << known.name;
+        EXPECT_EQ(test::standingFacts(scene), known.standing) << known.name;
+    }
+}
+
 }  // namespace eyrie::preset_test

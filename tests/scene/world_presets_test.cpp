@@ -444,13 +444,22 @@ TEST(WorldPreset, aSeedGivesTheSameWorldEverywhere) {
         const char* name;
         std::size_t objects;
         double x, y, length;  ///< px, of all boxes together
+        const char* standing;
     };
-    for (const Known& known : {Known{"road_flight", 32, 18199.41, 3789.63, 627.83},
-                               {"road_flight_night", 32, 18199.41, 3789.63, 627.83},
-                               {"estate", 5, 1900.13, 622.96, 68.77},
-                               {"city_high", 156, 142659.79, 87264.76, 2230.53},
-                               {"thermal", 26, 9272.05, 6186.45, 512.72},
-                               {"low_rate", 32, 9275.15, 8685.57, 662.33}}) {
+    for (const Known& known :
+         {Known{"road_flight", 32, 18199.41, 3789.63, 627.83,
+                "234 -548139; 511 -1604881; 615 -1575476; 195 -769789; 861 -2239386; 4258 -437359201"},
+          {"road_flight_night", 32, 18199.41, 3789.63, 627.83,
+           "234 -548139; 538 -1671963; 615 -1575476; 195 -769789; 861 -2239386; 4258 -437359201"},
+          {"estate", 5, 1900.13, 622.96, 68.77,
+           "1339 -3443919; 3342 -8865168; 1097 -2500191; 467 -1364008; 1029 -2697807; 8585 -831089375"},
+          {"city_high", 156, 142659.79, 87264.76, 2230.53,
+           "621 311158; 1564 423929; 961 72081; 511 -25852; 1215 -386089; 13987 -8177541"},
+          {"thermal", 26, 9272.05, 6186.45, 512.72,
+           "117 57315; 270 20260; 347 30285; 111 -355; 472 35431; 2267 2903260"},
+          {"low_rate", 32, 9275.15, 8685.57, 662.33,
+           "437 1417871; 1172 3274398; 605 1653050; 363 913340; 735 2231549; 9670 775295290"},
+          {"orbit", 0, 0, 0, 0, "486 -1015181; 1022 -2171815; 208 -390584; 0 0; 152 -239832; 166 -1260441"}}) {
         const std::vector<StandingThing> nothing;
         const auto objects = SceneTruth(world(known.name), nothing).objectsOnOpenGround(0);
         EXPECT_EQ(objects.size(), known.objects) << known.name;
@@ -463,6 +472,7 @@ TEST(WorldPreset, aSeedGivesTheSameWorldEverywhere) {
         EXPECT_NEAR(places.x, known.x, 0.02) << known.name;
         EXPECT_NEAR(places.y, known.y, 0.02) << known.name;
         EXPECT_NEAR(lengths, known.length, 0.02) << known.name;
+        EXPECT_EQ(test::standingFacts(world(known.name)), known.standing) << known.name;
     }
 }
 

@@ -424,9 +424,11 @@ TEST_F(ProjectFileTest, ViewsTellTracksInUnitsOfPeople) {
     SQLite::Database other(path_.string(), SQLite::OPEN_READONLY);
     for (const TrackSummary& track : store.tracks(run)) {
         if (!track.confirmed) continue;
-        SQLite::Statement row(other, "SELECT speed_px_per_frame, speed_kmh FROM v_tracks WHERE track = ?");
+        SQLite::Statement row(other, "SELECT speed_px_per_frame, speed_kmh, seconds FROM v_tracks WHERE track = ?");
         row.bind(1, static_cast<std::int64_t>(track.id));
         ASSERT_TRUE(row.executeStep());
+        EXPECT_NEAR(row.getColumn(2).getDouble(), (track.last_frame - track.first_frame) / record.scale.frame_rate_hz,
+                    1e-9);
         EXPECT_NEAR(row.getColumn(0).getDouble(), track.mean_speed_px, 1e-9);
         EXPECT_NEAR(row.getColumn(1).getDouble(),
                     track.mean_speed_px * record.scale.gsd_m_per_px * record.scale.frame_rate_hz * 3.6, 1e-6);

@@ -118,6 +118,9 @@ TEST(StageCache, GivesWhatARunOfItsOwnGivesWhateverChangesAndInWhateverOrder) {
         {{"tracking.min_overlap", "0.05"}},
         {{"tracking.appearance", "lost"}, {"tracking.max_supported", "0"}},
         {{"finishing.constant_size", "false"}},
+        // Found late, and so traced back over the vectors of the frames before.
+        {{"finishing.keep_tentative", "false"}, {"tracking.confirm_hits", "8"}},
+        {{"outliers.min_vectors", "16"}},
         {{"stacking.enabled", "true"}, {"stacking.min_height", "4"}},
         {{"stacking.enabled", "true"}, {"stacking.min_height", "4"}, {"gradient.quantile", "0.2"}},
         {{"stacking.enabled", "true"}, {"stacking.min_height", "4"}, {"tracking.min_overlap", "0.05"}},

@@ -83,6 +83,25 @@ TEST(SweepRunner, StopsAndTellsHowFarItCame) {
     EXPECT_GT(last.seconds_left, 0);
 }
 
+TEST(SweepRunner, TellsWhatIsLeftFromTheSecondPointOn) {
+    const SweepPlan plan = test::sweepPlan({"gradient.quantile=0.05:0.05:0.2"});
+    SweepRunOptions options;
+    options.threads = 1;
+    int told = 0;
+    options.on_progress = [&](const SweepProgress& progress) {
+        if (progress.points_done < 2) {
+            EXPECT_EQ(progress.points_per_second, 0);
+            EXPECT_EQ(progress.seconds_left, 0);
+        } else {
+            ++told;
+            ASSERT_GT(progress.points_per_second, 0) << progress.points_done;
+            EXPECT_NEAR(progress.seconds_left * progress.points_per_second, 4 - progress.points_done, 1e-9);
+        }
+    };
+    runSweep(plan, test::sweepInputs(), workOrder(plan), {}, options);
+    EXPECT_GT(told, 2);
+}
+
 TEST(SweepRunner, AnErrorOfWhoKeepsThePointsEndsIt) {
     const SweepPlan plan = test::sweepPlan({"gradient.quantile=0.05:0.05:0.5"});
     SweepRunOptions options;

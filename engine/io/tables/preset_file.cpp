@@ -24,8 +24,7 @@ std::string placeOf(const std::string& text, std::size_t byte) {
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(byte > 0 ? byte - 1 : 0, text.size()));
     const auto line = std::count(text.begin(), end, '\n') + 1;
     const std::size_t line_start = text.rfind('\n', byte > 1 ? byte - 2 : 0);
-    const bool first_line = line == 1 || line_start == std::string::npos;
-    const std::size_t column = first_line ? byte : byte - line_start - 1;
+    const std::size_t column = line == 1 ? byte : byte - line_start - 1;
     return "line " + std::to_string(line) + ", column " + std::to_string(column);
 }
 
