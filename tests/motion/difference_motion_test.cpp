@@ -369,8 +369,9 @@ TEST(DifferenceMotion, OfAreasThatBeginInOneRowTheLeftComesFirstHoweverTheOtherG
     cv::Mat shown = plain.clone();
     cv::rectangle(shown, {90, 40, 20, 20}, cv::Scalar(220), cv::FILLED);
     cv::rectangle(shown, {150, 40, 16, 60}, cv::Scalar(220), cv::FILLED);
-    cv::rectangle(shown, {40, 84, 126, 16}, cv::Scalar(220),
-                  cv::FILLED);  // from there back to the left, below the first
+    // From there back to the left, below the first; its last pixels lie farthest left.
+    cv::rectangle(shown, {40, 84, 126, 16}, cv::Scalar(220), cv::FILLED);
+    cv::rectangle(shown, {40, 84, 16, 40}, cv::Scalar(220), cv::FILLED);
     DifferenceMotion difference(optionsOf(MotionMethod::two_frame_difference), kScale);
     MovingScene standing;
     standing.camera_per_frame = {0, 0};
