@@ -231,7 +231,11 @@ class LiveWindowTest : public QObject {
         const LiveSender sender(source.port, {{test::writeFilm(*home_ / "film.ts", 600), 24, 0.3}});
         MainWindow window;
         QVERIFY(watches(window, source));
-        QVERIFY(waitFor([&] { return window.session().ownRun() != nullptr; }));
+        // Once the run is stored, its video has a number.
+        QVERIFY(waitFor([&] {
+            const RunRecord* run = window.session().ownRun();
+            return run != nullptr && run->sequence.id > 0;
+        }));
         {
             ProjectFile project = ProjectFile::open(source.request.project);
             ReviewStore store(project, window.session().ownRun()->sequence.id);
