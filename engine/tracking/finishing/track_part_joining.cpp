@@ -27,6 +27,7 @@ constexpr double kCovered = 0.1;           ///< of the smaller part, where parts
 constexpr double kTravelledCovered = 4;    ///< … m over the ground that say enough then …
 constexpr double kCoveredOfLonger = 0.25;  ///< … share of the longer one's life, whose box grows throughout …
 constexpr double kLooseCovered = 0.5;      ///< … and m by which their distance scatters
+constexpr double kWholeAlone = 1.25;       ///< a part that is longer by this factor while alone is the whole then
 
 /// What a whole box adds to one of its parts, in the part's own axes; px.
 struct Growth {
@@ -98,18 +99,29 @@ std::optional<Whole> wholeOf(const TrackPath& leader, const TrackPath& other, co
     return whole;
 }
 
+/// Whether a track is a part of the vehicle also where the other part is not seen: it is no longer there than beside it.
+bool partThroughout(const TrackPath& path, const TrackPath& other) {
+    std::vector<double> beside, alone;
+    for (const auto& [frame, state] : path.states)
+        (other.at(frame) != nullptr ? beside : alone).push_back(state.box.length);
+    return beside.empty() || alone.empty() || medianOf(alone) < kWholeAlone * medianOf(beside);
+}
+
 void join(TrackPath& leader, const TrackPath& other, const Whole& whole) {
+    const bool leader_throughout = partThroughout(leader, other);
+    const bool other_throughout = partThroughout(other, leader);
     std::vector<TimedPathState> joined;
     joined.reserve(leader.states.size() + other.states.size());
     auto b = other.states.begin();
     const auto takeOther = [&] {
         joined.push_back(*b++);
-        joined.back().second.box = whole.of_other.applied(joined.back().second.box);
+        if (other_throughout) joined.back().second.box = whole.of_other.applied(joined.back().second.box);
     };
     for (TimedPathState& state : leader.states) {
         while (b != other.states.end() && b->first < state.first) takeOther();
-        if (b != other.states.end() && b->first == state.first) ++b;
-        state.second.box = whole.of_leader.applied(state.second.box);
+        const bool beside = b != other.states.end() && b->first == state.first;
+        if (beside) ++b;
+        if (beside || leader_throughout) state.second.box = whole.of_leader.applied(state.second.box);
         joined.push_back(state);
     }
     while (b != other.states.end()) takeOther();
