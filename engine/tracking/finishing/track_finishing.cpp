@@ -137,6 +137,12 @@ void FinishingOptions::describe(ParameterVisitor& v) {
          "Tracks that drive beside a vehicle as if fixed to it and were detected less than half as often are its "
          "shadow and are dropped.",
          ""});
+    declare.flag(
+        "finishing.trim_shadows", trim_shadows,
+        {"",
+         "Take the shadow out of the boxes of sure tracks where the vehicles show which way shadows fall. Needs "
+         "a method with a classifier.",
+         ""});
     declare.real(
         "finishing.min_detected", min_detected, 0, 1,
         {"",
@@ -188,6 +194,7 @@ FinishingOptions FinishingOptions::thesis() {
     options.min_width_m = 0;
     options.max_sharing = 1;
     options.drop_shadows = false;
+    options.trim_shadows = false;
     options.min_detected = 0;
     options.join_parts = false;
     options.standing_height = 0;
@@ -341,6 +348,7 @@ FinishedTracks finishRun(const StatesOfRun& states, const GroundMotion& ground, 
     extendToRest(paths, ground, framesOf(options.from_rest_s, scale), scale);
     extendBack(paths, ground, options.extend_back, framesOf(options.extend_entry_s, scale));
     if (judged) scoreTracks(paths, ground, looks, options.min_score, scale, finished);
+    if (judged && options.trim_shadows && found.gray_at) trimShadows(paths, ground, found.gray_at, scale);
     confirm(paths);
     confirm(finished.doubtful);
     return finished;

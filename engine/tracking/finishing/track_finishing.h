@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <opencv2/core/mat.hpp>
 #include <opencv2/core/types.hpp>
 #include <unordered_map>
 #include <unordered_set>
@@ -51,6 +52,7 @@ struct FinishingOptions {
     double min_width_m = 0.9;
     double max_sharing = 0.5;
     bool drop_shadows = true;
+    bool trim_shadows = true;
     double min_detected = 0.4;
     double standing_height = 0.33;
     double standing_depth = 0.2;
@@ -170,6 +172,9 @@ using VectorsAt = std::function<std::vector<MotionVector>(FrameIndex)>;
 /// not have.
 using ClassifiedAt = std::function<std::vector<ClassifiedBox>(FrameIndex)>;
 
+/// The grey picture (CV_8UC1) of a frame of the run; empty where it cannot be read.
+using GrayOfFrame = std::function<cv::Mat(FrameIndex)>;
+
 /// What was found in the frames of a run, as far as finishing looks at it. A source that is not there says nothing.
 struct FoundInFrames {
     FoundInFrames() = default;
@@ -177,6 +182,7 @@ struct FoundInFrames {
         : vectors_at(std::move(vectors)), classified_at(std::move(classified)) {}
     VectorsAt vectors_at;
     ClassifiedAt classified_at;  ///< only of runs in which a classifier takes part
+    GrayOfFrame gray_at;         ///< asked for in ascending order
 };
 
 /// What was kept of frames; it must outlive the result.

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <opencv2/core/types.hpp>
+#include <vector>
+
+#include "tracking/ground_motion.h"
+
+namespace eyrie {
+
+/// How the ground is turned and enlarged in each picture against the first one of its stretch: the frames that are
+/// registered to each other without a gap. What lies on the ground in one direction, as shadows do, is carried so.
+class GroundTurns {
+ public:
+    /// Of the frames `first` … `last`, measured in the middle of the pictures.
+    GroundTurns(const GroundMotion& ground, FrameIndex first, FrameIndex last);
+
+    struct Turn {
+        FrameIndex stretch = 0;  ///< the first frame of its stretch
+        double angle = 0;        ///< radians, clockwise on screen
+        double enlargement = 1;
+    };
+    /// `frame` must be one of them.
+    const Turn& at(FrameIndex frame) const { return turns_[static_cast<std::size_t>(frame - first_)]; }
+
+ private:
+    FrameIndex first_;
+    std::vector<Turn> turns_;
+};
+
+}  // namespace eyrie

@@ -1,0 +1,82 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/robust_statistics.h"
+#include "tracking/finishing/track_paths.h"
+#include "tracking/shadows/cast_shadow.h"
+#include "tracking/shadows/shadow_share.h"
+
+namespace eyrie {
+namespace {
+
+constexpr std::size_t kFewestLooks = 2;
+constexpr double kFallsAside = 0.15;  ///< share of the reach from which on a side says how much of it is in the box
+constexpr double kLeastOfBox = 0.5;   ///< share of a box's length and width that stays
+
+/// What the looks at a track say.
+struct TrackShares {
+    std::vector<double> along, across;
+};
+
+double usualShare(const std::vector<double>& shares) {
+    return shares.size() >= kFewestLooks ? medianOf(shares) : 0;
+}
+
+const CastShadow* shadowIn(const std::vector<CastShadow>& shadows, FrameIndex stretch) {
+    const auto found = std::find_if(shadows.begin(), shadows.end(),
+                                    [&](const CastShadow& shadow) { return shadow.stretch == stretch; });
+    return found != shadows.end() ? &*found : nullptr;
+}
+
+/// A box without what lies at one end of each axis.
+OrientedBox withoutEnds(const OrientedBox& box, cv::Point2d less) {
+    const double along = std::copysign(std::min(std::abs(less.x), (1 - kLeastOfBox) * box.length), less.x);
+    const double across = std::copysign(std::min(std::abs(less.y), (1 - kLeastOfBox) * box.width), less.y);
+    return {box.toImage({-along / 2, -across / 2}), box.length - std::abs(along), box.width - std::abs(across),
+            box.heading};
+}
+
+}  // namespace
+
+void takeOutShadows(std::vector<TrackPath>& paths, const std::vector<SilhouetteLook>& looks,
+                    const std::vector<CastShadow>& shadows, const GroundTurns& turns, const SceneScale& scale) {
+    std::map<std::size_t, TrackShares> shares;
+    for (const SilhouetteLook& look : looks) {
+        const GroundTurns::Turn& turn = turns.at(look.frame);
+        const CastShadow* shadow = shadowIn(shadows, turn.stretch);
+        if (shadow == nullptr) continue;
+        const ShadowShare share = shareInBox(look, reachAt(*shadow, turn, look.box.centre, scale), kFallsAside);
+        if (share.along) shares[look.path].along.push_back(*share.along);
+        if (share.across) shares[look.path].across.push_back(*share.across);
+    }
+    for (const auto& [path, of_track] : shares) {
+        const double along = usualShare(of_track.along);
+        const double across = usualShare(of_track.across);
+        if (along == 0 && across == 0) continue;
+        for (auto& [frame, state] : paths[path].states) {
+            const GroundTurns::Turn& turn = turns.at(frame);
+            const CastShadow* shadow = shadowIn(shadows, turn.stretch);
+            if (shadow == nullptr) continue;
+            const OrientedBox box = state.box;
+            const cv::Point2d reach = inAxesOf(box, reachAt(*shadow, turn, box.centre, scale));
+            state.box = withoutEnds(box, {along * reach.x, across * reach.y});
+        }
+    }
+}
+
+void trimShadows(std::vector<TrackPath>& paths, const GroundMotion& ground, const GrayOfFrame& gray_at,
+                 const SceneScale& scale) {
+    const std::vector<SilhouetteLook> looks = lookAtSilhouettes(paths, ground, gray_at, scale);
+    if (looks.empty()) return;
+    FrameIndex first = looks.front().frame;
+    FrameIndex last = first;
+    for (const TrackPath& path : paths) {
+        first = std::min(first, path.firstFrame());
+        last = std::max(last, path.lastFrame());
+    }
+    const GroundTurns turns(ground, first, last);
+    takeOutShadows(paths, looks, castShadows(looks, turns, scale), turns, scale);
+}
+
+}  // namespace eyrie

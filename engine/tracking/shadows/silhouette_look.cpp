@@ -1,0 +1,127 @@
+#include "tracking/shadows/silhouette_look.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace eyrie {
+namespace {
+
+constexpr double kContrast = 12;        ///< grey values by which a vehicle or a shadow differs from the ground …
+constexpr double kContrastShare = 0.1;  ///< … and share of the ground's brightness
+constexpr double kDarkestShadow = 0.25;
+constexpr double kBrightestShadow = 0.85;  ///< shares of the ground's brightness between which it is in the shade
+constexpr double kDarkGround = 60;         ///< grey values; at night lamps and beams make up the silhouettes
+constexpr double kBulk = 0.3;              ///< rows with less of the area than this share of the fullest are fringe
+constexpr double kLitArea = 0.35;          ///< of the whole silhouette: less is a roof, a window or a lamp …
+constexpr double kLitFilled = 0.6;         ///< … and so is what fills less of its own edges
+
+/// First and last of the rows, or columns, that hold enough.
+std::pair<int, int> bulkOf(const std::vector<int>& counts) {
+    const int least = std::max(1, static_cast<int>(std::ceil(kBulk * *std::max_element(counts.begin(), counts.end()))));
+    const auto enough = [&](int count) { return count >= least; };
+    const auto first = std::find_if(counts.begin(), counts.end(), enough);
+    const auto last = std::find_if(counts.rbegin(), counts.rend(), enough);
+    return {static_cast<int>(first - counts.begin()), static_cast<int>(counts.rend() - last) - 1};
+}
+
+/// The label of the component that covers most of the middle third; 0: none does.
+int middleLabel(const cv::Mat& labels, int count) {
+    std::vector<int> covered(static_cast<std::size_t>(count), 0);
+    for (int y = labels.rows / 3; y < labels.rows - labels.rows / 3; ++y) {
+        for (int x = labels.cols / 3; x < labels.cols - labels.cols / 3; ++x)
+            ++covered[static_cast<std::size_t>(labels.at<int>(y, x))];
+    }
+    covered[0] = 0;
+    const auto most = std::max_element(covered.begin(), covered.end());
+    return *most > 0 ? static_cast<int>(most - covered.begin()) : 0;
+}
+
+}  // namespace
+
+SilhouetteGrid::SilhouetteGrid(const OrientedBox& box, double margin, double step)
+    : box_(box),
+      step_(step),
+      places_(std::max(5, cvRound((box.length + 2 * margin) / step)),
+              std::max(5, cvRound((box.width + 2 * margin) / step))) {}
+
+cv::Mat SilhouetteGrid::sampled(const cv::Mat& gray, const cv::Matx33d& picture_from_here) const {
+    cv::Mat xs(places_, CV_32FC1);
+    cv::Mat ys(places_, CV_32FC1);
+    for (int y = 0; y < places_.height; ++y) {
+        for (int x = 0; x < places_.width; ++x) {
+            const cv::Point2d here =
+                box_.toImage({(x + 0.5 - places_.width / 2.0) * step_, (y + 0.5 - places_.height / 2.0) * step_});
+            const cv::Vec3d there = picture_from_here * cv::Vec3d(here.x, here.y, 1);
+            const double px = there[0] / there[2];
+            const double py = there[1] / there[2];
+            if (!(px >= 0 && py >= 0 && px <= gray.cols - 1 && py <= gray.rows - 1)) return {};
+            xs.at<float>(y, x) = static_cast<float>(px);
+            ys.at<float>(y, x) = static_cast<float>(py);
+        }
+    }
+    cv::Mat found;
+    cv::remap(gray, found, xs, ys, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+    return found;
+}
+
+std::optional<BoxEdges> SilhouetteGrid::edgesOf(const cv::Mat& mask) const {
+    cv::Mat closed;
+    cv::morphologyEx(mask, closed, cv::MORPH_CLOSE, cv::Mat::ones(3, 3, CV_8UC1));
+    cv::Mat labels;
+    const int label = middleLabel(labels, cv::connectedComponents(closed, labels));
+    if (label == 0) return {};
+    std::vector<int> in_column(static_cast<std::size_t>(places_.width), 0);
+    std::vector<int> in_row(static_cast<std::size_t>(places_.height), 0);
+    for (int y = 0; y < labels.rows; ++y) {
+        for (int x = 0; x < labels.cols; ++x) {
+            if (labels.at<int>(y, x) != label) continue;
+            ++in_column[static_cast<std::size_t>(x)];
+            ++in_row[static_cast<std::size_t>(y)];
+        }
+    }
+    const auto [rear, front] = bulkOf(in_column);
+    const auto [left, right] = bulkOf(in_row);
+    return BoxEdges{(rear - places_.width / 2.0) * step_, (front + 1 - places_.width / 2.0) * step_,
+                    (left - places_.height / 2.0) * step_, (right + 1 - places_.height / 2.0) * step_};
+}
+
+std::optional<Silhouette> SilhouetteGrid::compare(const cv::Mat& vehicle, const std::vector<cv::Mat>& grounds) const {
+    cv::Mat differs(places_, CV_8UC1, cv::Scalar(255));
+    cv::Mat shaded = differs.clone();
+    for (const cv::Mat& ground : grounds) {
+        for (int y = 0; y < places_.height; ++y) {
+            for (int x = 0; x < places_.width; ++x) {
+                const double here = vehicle.at<uchar>(y, x);
+                const double bare = ground.at<uchar>(y, x);
+                const double off = std::abs(here - bare);
+                if (off <= kContrast || off <= kContrastShare * bare) differs.at<uchar>(y, x) = 0;
+                const double share = here / std::max(1.0, bare);
+                if (share <= kDarkestShadow || share >= kBrightestShadow) shaded.at<uchar>(y, x) = 0;
+            }
+        }
+    }
+    const bool dark = std::all_of(grounds.begin(), grounds.end(),
+                                  [](const cv::Mat& ground) { return cv::mean(ground)[0] < kDarkGround; });
+    if (dark) return {};
+    const auto whole = edgesOf(differs);
+    if (!whole) return {};
+    const double half_length = places_.width * step_ / 2;
+    const double half_width = places_.height * step_ / 2;
+    const bool cut = whole->rear <= -half_length || whole->front >= half_length || whole->left <= -half_width ||
+                     whole->right >= half_width;
+    if (cut) return {};
+    Silhouette silhouette{*whole, {}, false};
+    const cv::Mat lit = differs & ~shaded;
+    silhouette.lit = edgesOf(lit);
+    if (!silhouette.lit) return silhouette;
+    const BoxEdges& edges = *silhouette.lit;
+    const cv::Rect area(cvRound(edges.rear / step_ + places_.width / 2.0),
+                        cvRound(edges.left / step_ + places_.height / 2.0), cvRound((edges.front - edges.rear) / step_),
+                        cvRound((edges.right - edges.left) / step_));
+    const double filled = static_cast<double>(cv::countNonZero(lit(area))) / area.area();
+    silhouette.lit_vehicle = edges.area() > kLitArea * whole->area() && filled > kLitFilled;
+    return silhouette;
+}
+
+}  // namespace eyrie

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <opencv2/core/mat.hpp>
+#include <optional>
+#include <vector>
+
+#include "core/geometry/oriented_box.h"
+#include "core/values/ids.h"
+
+namespace eyrie {
+
+/// Where something ends in the axes of a box, px from its centre: along the heading and across it to the right.
+struct BoxEdges {
+    double rear = 0;
+    double front = 0;
+    double left = 0;
+    double right = 0;
+
+    double area() const { return (front - rear) * (right - left); }
+};
+
+/// How far a vehicle and its shadow reach, as the ground shows it that they cover.
+struct Silhouette {
+    BoxEdges whole;               ///< of all that differs from the ground
+    std::optional<BoxEdges> lit;  ///< of what does and is no shadow, where there is anything
+    bool lit_vehicle = false;     ///< that is the vehicle, surely: one compact area, not merely its windows or lamps
+};
+
+/// The grid of places about a box at which pictures are compared, in its axes.
+class SilhouetteGrid {
+ public:
+    /// `margin`: px by which it reaches beyond the box; `step`: px from one place to the next.
+    SilhouetteGrid(const OrientedBox& box, double margin, double step);
+
+    /// What a picture (CV_8UC1) shows at the places, which `picture_from_here` takes there; CV_8UC1, heading to the
+    /// right. Empty where one of them lies beyond the picture.
+    cv::Mat sampled(const cv::Mat& gray, const cv::Matx33d& picture_from_here = cv::Matx33d::eye()) const;
+
+    /// `vehicle`: what `sampled` gives while it is there, `grounds`: while it is not, at least one. Nothing where it
+    /// does not stand out, or is one with something that the grid does not hold.
+    std::optional<Silhouette> compare(const cv::Mat& vehicle, const std::vector<cv::Mat>& grounds) const;
+
+ private:
+    std::optional<BoxEdges> edgesOf(const cv::Mat& mask) const;
+
+    OrientedBox box_;
+    double step_;
+    cv::Size places_;
+};
+
+}  // namespace eyrie

@@ -1,0 +1,149 @@
+#include "tracking/shadows/silhouette_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "core/geometry/homography_jacobian.h"
+#include "tracking/finishing/frames_of.h"
+#include "tracking/finishing/track_occupancy.h"
+
+namespace eyrie {
+namespace {
+
+constexpr double kSureVehicle = 0.5;    ///< score of tracks that are looked at
+constexpr std::size_t kLooks = 12;      ///< at most, a track
+constexpr double kPicturesApart = 0.1;  ///< s; so that few pictures are read
+constexpr double kGroundWithin = 3;     ///< s before and after: later the light and the registration are others
+constexpr int kGroundsASide = 2;
+constexpr double kMarginAbout = 1.2;  ///< m about a vehicle
+constexpr double kGridStep = 0.1;     ///< m, at least half a pixel
+constexpr double kClear = 0.7;        ///< share of the margin that other boxes stay off
+
+/// A look for which not all pictures have been read.
+struct PlannedLook {
+    SilhouetteLook look;
+    SilhouetteGrid grid;
+    std::vector<std::pair<FrameIndex, cv::Matx33d>> grounds;  ///< pictures and the way there
+    cv::Mat vehicle = {};
+    std::vector<cv::Mat> seen = {};
+    FrameIndex last = 0;
+};
+
+class LookPlan {
+ public:
+    LookPlan(const std::vector<TrackPath>& paths, const GroundMotion& ground, const SceneScale& scale)
+        : paths_(paths),
+          ground_(ground),
+          scale_(scale),
+          taken_(paths),
+          apart_(std::max(1, framesOf(kPicturesApart, scale))),
+          within_(framesOf(kGroundWithin, scale)) {}
+
+    std::vector<PlannedLook> planned() const {
+        std::vector<PlannedLook> looks;
+        for (std::size_t i = 0; i < paths_.size(); ++i) {
+            if (paths_[i].states.front().second.score < kSureVehicle) continue;
+            for (const TimedPathState* state : momentsOf(paths_[i])) {
+                const OrientedBox box = state->second.box;
+                const double metre = scale_.at(box.centre).px(1);
+                PlannedLook look{{i, state->first, box, {}},
+                                 SilhouetteGrid(box, kMarginAbout * metre, std::max(0.5, kGridStep * metre)),
+                                 {}};
+                addGrounds(look, -1);
+                addGrounds(look, 1);
+                if (look.grounds.empty()) continue;
+                look.last = state->first;
+                for (const auto& [frame, map] : look.grounds) look.last = std::max(look.last, frame);
+                looks.push_back(std::move(look));
+            }
+        }
+        return looks;
+    }
+
+ private:
+    std::vector<const TimedPathState*> momentsOf(const TrackPath& path) const {
+        std::vector<const TimedPathState*> all;
+        for (const TimedPathState& state : path.states) {
+            const bool detected = state.second.origin == StateOrigin::detected;
+            if (detected && state.first % apart_ == 0) all.push_back(&state);
+        }
+        if (all.size() <= kLooks) return all;
+        std::vector<const TimedPathState*> spread;
+        for (std::size_t i = 0; i < kLooks; ++i) spread.push_back(all[i * (all.size() - 1) / (kLooks - 1)]);
+        return spread;
+    }
+
+    /// Goes through the pictures to one side, nearest first.
+    void addGrounds(PlannedLook& look, int direction) const {
+        cv::Matx33d there = cv::Matx33d::eye();
+        int found = 0;
+        for (int gone = 1; gone <= within_ && found < kGroundsASide; ++gone) {
+            const FrameIndex frame = look.look.frame + direction * gone;
+            const cv::Matx33d* step = ground_.step(frame - direction, frame, false);
+            if (step == nullptr) return;
+            there = *step * there;
+            if (frame % apart_ != 0 || !isBare(look.look.box, there, frame)) continue;
+            look.grounds.emplace_back(frame, there);
+            ++found;
+        }
+    }
+
+    /// Whether no track is near the place of a box, which the map takes into the frame.
+    bool isBare(const OrientedBox& box, const cv::Matx33d& map, FrameIndex frame) const {
+        const HomographyJacobian there(map, box.centre);
+        const double margin = 2 * kClear * scale_.at(box.centre).px(kMarginAbout);
+        const OrientedBox place{there.point(), (box.length + margin) * there.scale(),
+                                (box.width + margin) * there.scale(), there.turned(box.heading)};
+        const std::vector<OrientedBox> others = taken_.in(frame);
+        return std::none_of(others.begin(), others.end(),
+                            [&](const OrientedBox& other) { return intersectionArea(place, other) > 0; });
+    }
+
+    const std::vector<TrackPath>& paths_;
+    const GroundMotion& ground_;
+    const SceneScale& scale_;
+    TrackOccupancy taken_;
+    int apart_;   ///< frames between pictures that are read
+    int within_;  ///< frames
+};
+
+}  // namespace
+
+std::vector<SilhouetteLook> lookAtSilhouettes(const std::vector<TrackPath>& paths, const GroundMotion& ground,
+                                              const GrayOfFrame& gray_at, const SceneScale& scale) {
+    std::vector<PlannedLook> planned = LookPlan(paths, ground, scale).planned();
+    std::map<FrameIndex, std::vector<std::size_t>> wanted_by;  // looks, by the pictures that they need
+    for (std::size_t i = 0; i < planned.size(); ++i) {
+        wanted_by[planned[i].look.frame].push_back(i);
+        for (const auto& [frame, map] : planned[i].grounds) wanted_by[frame].push_back(i);
+    }
+    std::vector<SilhouetteLook> looks;
+    for (const auto& [frame, wanting] : wanted_by) {
+        const cv::Mat gray = gray_at(frame);
+        for (const std::size_t i : wanting) {
+            PlannedLook& plan = planned[i];
+            if (frame == plan.look.frame) {
+                plan.vehicle = gray.empty() ? cv::Mat() : plan.grid.sampled(gray);
+            } else if (!gray.empty()) {
+                const auto way = std::find_if(plan.grounds.begin(), plan.grounds.end(),
+                                              [&](const auto& ground_at) { return ground_at.first == frame; });
+                cv::Mat bare = plan.grid.sampled(gray, way->second);
+                if (!bare.empty()) plan.seen.push_back(std::move(bare));
+            }
+            if (frame != plan.last) continue;
+            if (!plan.vehicle.empty() && !plan.seen.empty()) {
+                if (const auto silhouette = plan.grid.compare(plan.vehicle, plan.seen)) {
+                    plan.look.silhouette = *silhouette;
+                    looks.push_back(plan.look);
+                }
+            }
+            plan.vehicle.release();
+            plan.seen.clear();
+        }
+    }
+    return looks;
+}
+
+}  // namespace eyrie
