@@ -144,9 +144,9 @@ struct EndedRun {
 };
 
 /// Finishes the run and takes what only its recorder knows.
-void takeRecord(EndedRun& ended, RunRecorder& recorder) {
+void takeRecord(EndedRun& ended, RunRecorder& recorder, FrameSource& source) {
     ended.summary.median_ms[static_cast<std::size_t>(Stage::store)] = recorder.medianStoreMs();
-    ended.record = recorder.finish(ended.summary);
+    ended.record = recorder.finish(ended.summary, [&](FrameIndex frame) { return source.read(frame, false).gray; });
 }
 
 /// What stands on the command line of a run to be resumed; `source` is the input, if one was given.
@@ -190,7 +190,7 @@ EndedRun runAnew(const RunArguments& arguments, FrameSource& source, const std::
                          unlessBegunMeanwhile(arguments, source, project));
     EndedRun ended;
     ended.summary = ChainRun(options, chosen.scale).run(source, range, recorder, stop, !arguments.annotated.empty());
-    takeRecord(ended, recorder);
+    takeRecord(ended, recorder, source);
     ended.has_video = console.finishVideo(ended.summary.outcome == RunOutcome::failed);
     return ended;
 }
@@ -261,7 +261,7 @@ EndedRun goOn(const RunArguments& arguments, const RunRecord& run, FrameSource& 
     EndedRun ended;
     ended.summary = ChainRun(resumed.options, run.scale)
                         .run(source, resumed.range(), recorder, stop, !arguments.annotated.empty(), resumed.start);
-    takeRecord(ended, recorder);
+    takeRecord(ended, recorder, source);
     ended.has_video = console.finishVideo(ended.summary.outcome == RunOutcome::failed);
     return ended;
 }

@@ -64,7 +64,7 @@ float RunRecorder::medianStoreMs() const {
     return *middle;
 }
 
-RunRecord RunRecorder::finish(const RunSummary& summary) {
+RunRecord RunRecorder::finish(const RunSummary& summary, const GrayOfFrame& gray_at) {
     const RunState state = summary.outcome == RunOutcome::finished  ? RunState::finished
                            : summary.outcome == RunOutcome::stopped ? RunState::stopped
                                                                     : RunState::failed;
@@ -82,8 +82,9 @@ RunRecord RunRecorder::finish(const RunSummary& summary) {
     const StatesOfRun followed = [&](const StateVisitor& visitor) { store.visitTrackStates(writer_.runId(), visitor); };
     const VectorsAt vectors_at = [&](FrameIndex frame) { return store.motionVectors(writer_.runId(), frame); };
     const ClassifiedAt classified_at = [&](FrameIndex frame) { return store.classifiedBoxes(writer_.runId(), frame); };
-    const FinishedTracks finished = finishRun(followed, ground, options_.finishing, scale_,
-                                              {vectors_at, classifiedVehicles(options_, classified_at)});
+    FoundInFrames found(vectors_at, classifiedVehicles(options_, classified_at));
+    found.gray_at = gray_at;
+    const FinishedTracks finished = finishRun(followed, ground, options_.finishing, scale_, found);
     RunStateStore(project).keepTracks(writer_.runId());
     TracksOfRun tracks;
     tracks.states = [&](const StateVisitor& visitor) { finished.visit(visitor); };

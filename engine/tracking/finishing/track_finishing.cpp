@@ -121,6 +121,12 @@ void FinishingOptions::describe(ParameterVisitor& v) {
          "in all by at most this long. 0: never.",
          ""});
     declare.real(
+        "finishing.follow_ends", follow_ends_s, 0, 60,
+        {"s",
+         "A track that is surely a vehicle and that begins or ends in mid-picture is followed on in the pictures, while "
+         "they surely show it, by at most this long. 0: never.",
+         ""});
+    declare.real(
         "finishing.min_length", min_length_m, 0, 100,
         {"m", "Tracks whose boxes stay shorter are not vehicles. Used where the ground sampling distance is known.",
          ""});
@@ -184,6 +190,7 @@ FinishingOptions FinishingOptions::thesis() {
     options.extend_entry_s = 0;
     options.trace_back_s = 0;
     options.from_rest_s = 0;
+    options.follow_ends_s = 0;
     options.min_length_m = 0;
     options.min_width_m = 0;
     options.max_sharing = 1;
@@ -341,6 +348,7 @@ FinishedTracks finishRun(const StatesOfRun& states, const GroundMotion& ground, 
     extendToRest(paths, ground, framesOf(options.from_rest_s, scale), scale);
     extendBack(paths, ground, options.extend_back, framesOf(options.extend_entry_s, scale));
     if (judged) scoreTracks(paths, ground, looks, options.min_score, scale, finished);
+    if (judged) followEnds(paths, ground, found.gray_at, framesOf(options.follow_ends_s, scale));
     confirm(paths);
     confirm(finished.doubtful);
     return finished;

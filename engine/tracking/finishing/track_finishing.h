@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <opencv2/core/mat.hpp>
 #include <opencv2/core/types.hpp>
 #include <unordered_map>
 #include <unordered_set>
@@ -47,6 +48,7 @@ struct FinishingOptions {
     double extend_entry_s = 0.5;
     double trace_back_s = 4;
     double from_rest_s = 4;
+    double follow_ends_s = 3;
     double min_length_m = 1.8;
     double min_width_m = 0.9;
     double max_sharing = 0.5;
@@ -170,6 +172,9 @@ using VectorsAt = std::function<std::vector<MotionVector>(FrameIndex)>;
 /// not have.
 using ClassifiedAt = std::function<std::vector<ClassifiedBox>(FrameIndex)>;
 
+/// The grey picture (CV_8UC1) of a frame of the run; empty where it cannot be read.
+using GrayOfFrame = std::function<cv::Mat(FrameIndex)>;
+
 /// What was found in the frames of a run, as far as finishing looks at it. A source that is not there says nothing.
 struct FoundInFrames {
     FoundInFrames() = default;
@@ -177,6 +182,7 @@ struct FoundInFrames {
         : vectors_at(std::move(vectors)), classified_at(std::move(classified)) {}
     VectorsAt vectors_at;
     ClassifiedAt classified_at;  ///< only of runs in which a classifier takes part
+    GrayOfFrame gray_at;
 };
 
 /// What was kept of frames; it must outlive the result.

@@ -101,4 +101,7 @@ void extendToRest(std::vector<TrackPath>& paths, const GroundMotion& ground, int
 /// before they were found are extended back to it.
 void extendBack(std::vector<TrackPath>& paths, const GroundMotion& ground, int frames, int entry_frames);
 
+/// Follows tracks that are surely vehicles on in pictures where they begin or end in mid-picture, by at most `frames`.
+int followEnds(std::vector<TrackPath>& paths, const GroundMotion& ground, const GrayOfFrame& gray_at, int frames);
+
 }  // namespace eyrie
