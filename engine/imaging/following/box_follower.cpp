@@ -36,6 +36,11 @@ BoxFollower::BoxFollower(const OrientedBox& box, const cv::Mat& gray, const Foll
       start_(gray, box, samples_),
       recent_(start_) {}
 
+void BoxFollower::startsWith(cv::Point2d velocity) {
+    velocity_ = usual_velocity_ = velocity;
+    steps_ = kUsualSpeedSteps;
+}
+
 BoxFollower::Step BoxFollower::advance(const cv::Mat& current, const cv::Mat& next, const Homography& map) {
     const OrientedBox predicted = carried(box_, velocity_, map);
     sure_box_ = carried(sure_box_, {0, 0}, map);

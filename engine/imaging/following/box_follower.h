@@ -39,6 +39,8 @@ class BoxFollower {
  public:
     /// `gray` (CV_8UC1) shows the object in `box`.
     BoxFollower(const OrientedBox& box, const cv::Mat& gray, const FollowOptions& options = {});
+    /// Says how it moves against the ground, px per step in that picture; before the first step.
+    void startsWith(cv::Point2d velocity);
 
     struct Step {
         OrientedBox box;
