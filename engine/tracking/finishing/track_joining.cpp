@@ -17,6 +17,7 @@ constexpr double kJoinedSpeedShare = 0.4;  ///< difference of velocities, as a s
 constexpr double kJoinedSpeedFloor = 0.3;  ///< px/frame
 constexpr double kMaxTurn = kPi / 3;       ///< between the directions of fast fragments
 constexpr double kMeetingGap = 0.3;        ///< s between tracks that were followed to one another
+constexpr double kMeetingSizeRatio = 2.5;  ///< between their areas: who turns shows another side
 constexpr double kMeetingShare = 0.4;      ///< of the smaller box that both must share
 constexpr double kFastSpeed = 1;           ///< px/frame from which directions are compared
 
@@ -86,7 +87,7 @@ class Joiner {
         if (!stood || !drove) return false;
         const double smaller = std::min(stood->box.area(), first.box.area());
         const double larger = std::max(stood->box.area(), first.box.area());
-        if (!(larger <= kSizeRatio * smaller)) return false;
+        if (!(larger <= kMeetingSizeRatio * smaller)) return false;
         return std::max(intersectionArea(stood->box, first.box), intersectionArea(drove->box, first.box)) >=
                kMeetingShare * smaller;
     }
