@@ -58,7 +58,6 @@ struct CountedSource : test::MemorySource {
     }
 };
 
-
 struct Finished {
     RunRecord record;
     int reads = 0;  ///< while it was finished

@@ -198,9 +198,9 @@ VectorsAt vectorsIn(const VectorsByFrame& kept);
 /// its own; gives every track a steady size on the ground and a smooth path; extends tracks back to where their motion
 /// vectors began or the vehicle stood; follows sure ones on in the pictures. States come in any
 /// order and leave ordered by frame, then id, one per frame and id. `ground` may lack frames; nothing is carried across
-/// those. Without vectors no track is traced back, without pictures none is followed on. What is left out although the tracker followed it is
-/// told, too; predicted ends that are trimmed and fragments that are joined do not count. Clean tracks come
-/// out as they went in, so finishing twice is finishing once.
+/// those. Without vectors no track is traced back, without pictures none is followed on. What is left out although the
+/// tracker followed it is told, too; predicted ends that are trimmed and fragments that are joined do not count. Clean
+/// tracks come out as they went in, so finishing twice is finishing once.
 FinishedTracks finishRun(const StatesOfRun& states, const GroundMotion& ground, const FinishingOptions& options,
                          const SceneScale& scale, const FoundInFrames& found = {});
 
