@@ -78,13 +78,18 @@ const cv::Matx33d* GroundMotion::step(FrameIndex from, FrameIndex to, bool guess
     return to > from ? &step->forward : &step->backward;
 }
 
+bool GroundMotion::frozen(FrameIndex from, FrameIndex to) const {
+    const Step* step = stepInto(std::max(from, to));
+    return step != nullptr && step->frozen;
+}
+
 std::optional<MovingState> GroundMotion::carried(MovingState state, FrameIndex from, FrameIndex to,
                                                  bool guesses) const {
     const int direction = to > from ? 1 : -1;
     for (FrameIndex frame = from; frame != to; frame += direction) {
         const cv::Matx33d* map = step(frame, frame + direction, guesses);
         if (!map) return std::nullopt;
-        const bool frozen = stepInto(std::max(frame, frame + direction))->frozen;
+        const bool frozen = this->frozen(frame, frame + direction);
         // Forward: move, then map. Backward undoes that in the opposite order.
         if (direction > 0 && !frozen) state.box = movedBy(state.box, state.velocity);
         state = mapped(state, *map);

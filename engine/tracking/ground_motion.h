@@ -44,6 +44,8 @@ class GroundMotion {
     /// Carries a box by its own velocity to another frame; nothing when a step is missing. Nothing moves by itself in
     /// frozen frames.
     std::optional<MovingState> carried(MovingState state, FrameIndex from, FrameIndex to, bool guesses) const;
+    /// Whether the picture stayed the same between two adjacent frames: nothing moved by itself.
+    bool frozen(FrameIndex from, FrameIndex to) const;
     /// Empty when the frame is unknown.
     cv::Size imageSize(FrameIndex frame) const;
     /// Whether less than the whole box lies in the image.

@@ -1,4 +1,4 @@
-#include "annotation/pictures/box_flow.h"
+#include "imaging/following/box_flow.h"
 
 #include <gtest/gtest.h>
 

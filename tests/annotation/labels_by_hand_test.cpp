@@ -4,7 +4,7 @@
 #include <functional>
 #include <opencv2/core.hpp>
 
-#include "annotation/pictures/box_patch.h"
+#include "imaging/following/box_patch.h"
 #include "annotation/review/attention.h"
 #include "annotation/review/join_suggestions.h"
 

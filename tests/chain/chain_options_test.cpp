@@ -349,6 +349,7 @@ TEST(ChainOptions, theThesisPresetDiffersFromTheDefaultsWhereItMust) {
         {"finishing.extend_back", "0"},
         {"finishing.extend_entry", "0"},
         {"finishing.trace_back", "0"},
+        {"finishing.follow_ends", "0"},
         {"finishing.from_rest", "0"},
         {"finishing.min_length", "0"},
         {"finishing.min_width", "0"},

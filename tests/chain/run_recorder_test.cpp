@@ -46,7 +46,50 @@ struct LeapingSource : test::MemorySource {
     }
 };
 
+/// Whose pictures are counted, and may be gone once the run is over.
+struct CountedSource : test::MemorySource {
+    using MemorySource::MemorySource;
+    int reads = 0;
+    bool gone = false;
+    Frame read(FrameIndex index, bool with_colour) override {
+        ++reads;
+        if (gone) throw Error(ErrorKind::input, "gone");
+        return MemorySource::read(index, with_colour);
+    }
+};
+
+struct Finished {
+    RunRecord record;
+    int reads = 0;  ///< while it was finished
+};
+
+Finished finishedWith(const std::filesystem::path& project, int stop_after, bool gone) {
+    test::MovingScene scene;
+    scene.frames = 60;
+    CountedSource source(scene);
+    const SceneScale scale = sceneScale(source.info(), 0.2);
+    StopAfter stopper(stop_after);
+    RunRecorder recorder(project, plannedRun(source.info(), scale, {}, "default"), ChainOptions{}, &stopper);
+    const RunSummary summary = ChainRun(ChainOptions{}, scale).run(source, {}, recorder, stopper.stop.get_token());
+    source.reads = 0;
+    source.gone = gone;
+    Finished finished;
+    finished.record = recorder.finish(summary, &source);
+    finished.reads = source.reads;
+    return finished;
+}
+
 }  // namespace
+
+TEST(RunRecorder, picturesAreReadOnceMoreWhereTheRunIsWhole) {
+    const test::TemporaryFolder folder;
+    const Finished whole = finishedWith(folder / "whole.eyrie", 1000, false);
+    EXPECT_EQ(whole.record.state, RunState::finished);
+    EXPECT_GT(whole.reads, 0);
+    EXPECT_LE(whole.reads, 60);
+    EXPECT_EQ(finishedWith(folder / "stopped.eyrie", 50, false).reads, 0) << "whoever stops does not wait";
+    EXPECT_EQ(finishedWith(folder / "gone.eyrie", 1000, true).record.state, RunState::finished);
+}
 
 TEST(RunRecorder, aFinishedRunIsShownAgainWithoutTheVideo) {
     const test::TemporaryFolder folder;

@@ -43,7 +43,7 @@ const fs::path source_dir = eyrie::test::sourceFolder();
 /// Which engine rooms each engine room may include besides itself (the plan of the house).
 const std::map<std::string, std::set<std::string>> allowed = {
     {"core", {}},
-    {"annotation", {"core", "stacking"}},
+    {"annotation", {"core", "imaging", "stacking"}},
     {"io", {"core"}},
     {"metadata", {"core", "io"}},
     {"georeference", {"core", "annotation", "io", "metadata"}},

@@ -89,7 +89,7 @@ void RunController::work(const RunRequest& request, LiveFeed& feed, const Backgr
             task.tell([this, record = resumed.run] { emit started(record); });
             summary = ChainRun(resumed.options, resumed.run.scale)
                           .run(*source, resumed.range(), recorder, stop, true, resumed.start);
-            recorder.finish(summary);
+            recorder.finish(summary, source.get());
         } else {
             const StatedScale stated = statedScale(*source, request.range.first, request.range.last,
                                                    request.gsd_m_per_px, request.gsd_origin, stop);
@@ -104,7 +104,7 @@ void RunController::work(const RunRequest& request, LiveFeed& feed, const Backgr
             record.id = run_id;
             task.tell([this, record] { emit started(record); });
             summary = ChainRun(request.options, chosen.scale).run(*source, request.range, recorder, stop, true);
-            recorder.finish(summary);
+            recorder.finish(summary, source.get());
         }
     } catch (const std::exception& error) {
         summary.outcome = stop.stop_requested() && run_id == 0 ? RunOutcome::stopped : RunOutcome::failed;

@@ -146,7 +146,7 @@ struct EndedRun {
 /// Finishes the run and takes what only its recorder knows.
 void takeRecord(EndedRun& ended, RunRecorder& recorder, FrameSource& source) {
     ended.summary.median_ms[static_cast<std::size_t>(Stage::store)] = recorder.medianStoreMs();
-    ended.record = recorder.finish(ended.summary, [&](FrameIndex frame) { return source.read(frame, false).gray; });
+    ended.record = recorder.finish(ended.summary, &source);
 }
 
 /// What stands on the command line of a run to be resumed; `source` is the input, if one was given.

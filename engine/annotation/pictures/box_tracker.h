@@ -8,19 +8,9 @@
 
 #include "annotation/keyframes/camera_motion.h"
 #include "core/geometry/oriented_box.h"
+#include "imaging/following/box_follower.h"
 
 namespace eyrie {
-
-/// Why following a box ended.
-enum class FollowEnd {
-    end_of_range,  ///< the frame asked for was reached
-    left_image,    ///< less than half of the box is in the image
-    few_corners,   ///< hardly any corner of the object could be tracked and the template did not help
-    appearance,    ///< it does not look like the object any more
-    jump,          ///< it would have moved or turned as no vehicle does
-    no_picture,    ///< the frame could not be read
-    stopped        ///< by the caller
-};
 
 /// A box as followed.
 struct FollowedBox {
@@ -35,18 +25,6 @@ struct FollowResult {
     FollowEnd end = FollowEnd::end_of_range;
     FrameIndex end_frame = 0;  ///< where it ended: the first frame that is not sure
     std::string reason;        ///< for people: "stopped at frame 212: it does not look like the object any more (0.41)"
-};
-
-/// When following a box ends because it is no longer sure.
-struct FollowOptions {
-    double min_certainty = 0.45;
-    double min_start_likeness = 0.3;  ///< correlation with how it looked at the start, −1 … 1
-    int max_corners = 40;
-    double max_forward_backward_px = 0.7;
-    double max_speed_change_px = 4;  ///< px/frame, against the speed of the frames before
-    double max_standing_px = 0.4;    ///< px/frame over the ground: up to that it waits
-    double min_seen = 0.5;           ///< share of what waits that must be seen while others pass in front of it …
-    int max_hidden_frames = 45;      ///< … but for so long, if it is seen again afterwards
 };
 
 /// The grey picture (CV_8UC1) of a frame; empty where it cannot be read.

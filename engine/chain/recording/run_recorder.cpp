@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "chain/recording/classified_vehicles.h"
+#include "core/error.h"
+#include "io/video/frame_source.h"
 #include "store/project/project_file.h"
 #include "store/runs/run_state_store.h"
 #include "tracking/ground_motion.h"
@@ -22,6 +24,18 @@ std::vector<std::pair<std::string, std::string>> storedParameters(const ChainOpt
     auto values = parameterValues(options);
     for (auto& changed : recording.changed()) values.push_back(std::move(changed));
     return values;
+}
+
+/// Frames that cannot be read any more are none.
+GrayOfFrame grayFrames(FrameSource* source) {
+    if (source == nullptr) return {};
+    return [source](FrameIndex frame) {
+        try {
+            return source->read(frame, false).gray;
+        } catch (const Error&) {
+            return cv::Mat();
+        }
+    };
 }
 
 }  // namespace
@@ -64,7 +78,7 @@ float RunRecorder::medianStoreMs() const {
     return *middle;
 }
 
-RunRecord RunRecorder::finish(const RunSummary& summary, const GrayOfFrame& gray_at) {
+RunRecord RunRecorder::finish(const RunSummary& summary, FrameSource* source) {
     const RunState state = summary.outcome == RunOutcome::finished  ? RunState::finished
                            : summary.outcome == RunOutcome::stopped ? RunState::stopped
                                                                     : RunState::failed;
@@ -83,7 +97,8 @@ RunRecord RunRecorder::finish(const RunSummary& summary, const GrayOfFrame& gray
     const VectorsAt vectors_at = [&](FrameIndex frame) { return store.motionVectors(writer_.runId(), frame); };
     const ClassifiedAt classified_at = [&](FrameIndex frame) { return store.classifiedBoxes(writer_.runId(), frame); };
     FoundInFrames found(vectors_at, classifiedVehicles(options_, classified_at));
-    found.gray_at = gray_at;
+    // Whoever stopped a run does not wait for its pictures once more.
+    if (state == RunState::finished) found.gray_at = grayFrames(source);
     const FinishedTracks finished = finishRun(followed, ground, options_.finishing, scale_, found);
     RunStateStore(project).keepTracks(writer_.runId());
     TracksOfRun tracks;

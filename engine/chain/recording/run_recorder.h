@@ -9,7 +9,6 @@
 #include "store/details/recording_options.h"
 #include "store/runs/result_writer.h"
 #include "store/runs/run_store.h"
-#include "tracking/finishing/track_finishing.h"
 
 namespace eyrie {
 
@@ -35,8 +34,8 @@ class RunRecorder : public ChainObserver {
     /// Median time that storing a frame took; 0 before the first.
     float medianStoreMs() const;
     /// Finishes the tracks (see finishRun), closes the run with the summary's outcome and returns its record.
-    /// `gray_at`: the pictures of the run, where they can be read once more.
-    RunRecord finish(const RunSummary& summary, const GrayOfFrame& gray_at = {});
+    /// `source`: where the pictures of the run can be read once more; null where they cannot.
+    RunRecord finish(const RunSummary& summary, FrameSource* source = nullptr);
 
  private:
     std::filesystem::path project_;

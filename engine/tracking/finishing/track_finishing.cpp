@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <span>
 
 #include "tracking/finishing/frames_of.h"
@@ -120,6 +121,12 @@ void FinishingOptions::describe(ParameterVisitor& v) {
          "A track that begins slowly and gathers speed is carried back to where the vehicle stood and stands there, "
          "in all by at most this long. 0: never.",
          ""});
+    declare.real("finishing.follow_ends", follow_ends_s, 0, 60,
+                 {"s",
+                  "A track that is surely a vehicle and that begins or ends in mid-picture is followed on in the "
+                  "pictures, while "
+                  "they surely show it, by at most this long. 0: never.",
+                  ""});
     declare.real(
         "finishing.min_length", min_length_m, 0, 100,
         {"m", "Tracks whose boxes stay shorter are not vehicles. Used where the ground sampling distance is known.",
@@ -190,6 +197,7 @@ FinishingOptions FinishingOptions::thesis() {
     options.extend_entry_s = 0;
     options.trace_back_s = 0;
     options.from_rest_s = 0;
+    options.follow_ends_s = 0;
     options.min_length_m = 0;
     options.min_width_m = 0;
     options.max_sharing = 1;
@@ -313,6 +321,32 @@ void FinishedTracks::visitDropped(const StatesOfRun& states, const DropVisitor& 
     }
 }
 
+namespace {
+
+/// Follows tracks on where they end, and joins those that meet: they keep the better score, and what speaks for it.
+void followOn(FinishedTracks& finished, const GroundMotion& ground, const FinishingOptions& options,
+              const SceneScale& scale, const GrayOfFrame& gray_at) {
+    std::vector<TrackPath>& paths = finished.paths;
+    const FollowedEnds followed = followEnds(paths, ground, gray_at, framesOf(options.follow_ends_s, scale), scale);
+    std::set<TrackId> grown;
+    for (const auto& [older, later] : joinMeeting(paths, followed, ground, options, scale)) {
+        const TrackEvidence of_later = finished.evidence[later];
+        TrackEvidence& evidence = finished.evidence[older];
+        if (of_later.score > evidence.score) evidence = of_later;
+        finished.evidence.erase(later);
+        grown.insert(older);
+        for (DroppedPath& path : finished.dropped) {
+            if (path.beside == later) path.beside = older;
+        }
+    }
+    for (TrackPath& path : paths) {
+        if (!grown.contains(path.id)) continue;
+        for (auto& [frame, state] : path.states) state.score = static_cast<float>(finished.evidence[path.id].score);
+    }
+}
+
+}  // namespace
+
 FinishedTracks finishRun(const StatesOfRun& states, const GroundMotion& ground, const FinishingOptions& options,
                          const SceneScale& scale, const FoundInFrames& found) {
     FinishedTracks finished;
@@ -348,6 +382,7 @@ FinishedTracks finishRun(const StatesOfRun& states, const GroundMotion& ground, 
     extendToRest(paths, ground, framesOf(options.from_rest_s, scale), scale);
     extendBack(paths, ground, options.extend_back, framesOf(options.extend_entry_s, scale));
     if (judged) scoreTracks(paths, ground, looks, options.min_score, scale, finished);
+    if (judged) followOn(finished, ground, options, scale, found.gray_at);
     if (judged && options.trim_shadows && found.gray_at) trimShadows(paths, ground, found.gray_at, scale);
     confirm(paths);
     confirm(finished.doubtful);

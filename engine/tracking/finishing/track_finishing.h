@@ -48,6 +48,7 @@ struct FinishingOptions {
     double extend_entry_s = 0.5;
     double trace_back_s = 4;
     double from_rest_s = 4;
+    double follow_ends_s = 3;
     double min_length_m = 1.8;
     double min_width_m = 0.9;
     double max_sharing = 0.5;
@@ -182,7 +183,7 @@ struct FoundInFrames {
         : vectors_at(std::move(vectors)), classified_at(std::move(classified)) {}
     VectorsAt vectors_at;
     ClassifiedAt classified_at;  ///< only of runs in which a classifier takes part
-    GrayOfFrame gray_at;         ///< asked for in ascending order
+    GrayOfFrame gray_at;         ///< where the pictures can be read once more; asked for in ascending order
 };
 
 /// What was kept of frames; it must outlive the result.
@@ -196,11 +197,11 @@ VectorsAt vectorsIn(const VectorsByFrame& kept);
 /// Turns all states of a finished run into its result. Keeps the tracks that were ever confirmed, with their tentative
 /// beginning; trims predicted ends; joins the fragments of one vehicle under the older id; drops what is no vehicle of
 /// its own; gives every track a steady size on the ground and a smooth path; extends tracks back to where their motion
-/// vectors began or the vehicle stood. States come in any
+/// vectors began or the vehicle stood; follows sure ones on in the pictures. States come in any
 /// order and leave ordered by frame, then id, one per frame and id. `ground` may lack frames; nothing is carried across
-/// those. Without vectors no track is traced back. What is left out although the tracker followed it is
-/// told, too; predicted ends that are trimmed and fragments that are joined do not count. Clean tracks come
-/// out as they went in, so finishing twice is finishing once.
+/// those. Without vectors no track is traced back, without pictures none is followed on. What is left out although the
+/// tracker followed it is told, too; predicted ends that are trimmed and fragments that are joined do not count. Clean
+/// tracks come out as they went in, so finishing twice is finishing once.
 FinishedTracks finishRun(const StatesOfRun& states, const GroundMotion& ground, const FinishingOptions& options,
                          const SceneScale& scale, const FoundInFrames& found = {});
 

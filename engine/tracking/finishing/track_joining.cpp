@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/geometry/angle.h"
 #include "tracking/association/best_assignment.h"
+#include "tracking/finishing/frames_of.h"
 #include "tracking/finishing/shared_frames.h"
 #include "tracking/finishing/track_paths.h"
 
@@ -14,6 +16,9 @@ constexpr double kSizeRatio = 2.2;         ///< between the areas of fragments o
 constexpr double kJoinedSpeedShare = 0.4;  ///< difference of velocities, as a share of the speed
 constexpr double kJoinedSpeedFloor = 0.3;  ///< px/frame
 constexpr double kMaxTurn = kPi / 3;       ///< between the directions of fast fragments
+constexpr double kMeetingGap = 0.3;        ///< s between tracks that were followed to one another
+constexpr double kMeetingSizeRatio = 2.5;  ///< between their areas: who turns shows another side
+constexpr double kMeetingShare = 0.4;      ///< of the smaller box that both must share
 constexpr double kFastSpeed = 1;           ///< px/frame from which directions are compared
 
 /// The last frame an earlier track may keep when a later one continues it; its unseen states from there on are cut.
@@ -68,6 +73,23 @@ class Joiner {
         const double distance_cost = std::hypot(apart.x, apart.y) / (allowed + acceleration * gap * gap / 2);
         if (!(speed_cost <= 1 && distance_cost <= 1)) return 0;
         return 2.5 - speed_cost - distance_cost;
+    }
+
+    /// Whether `later` begins just where `earlier` ends, wherever they drive.
+    bool meet(const TrackPath& earlier, const TrackPath& later) const {
+        const FrameIndex end = earlier.lastFrame();
+        const FrameIndex begin = later.firstFrame();
+        if (end >= begin) return false;
+        const PathState& last = earlier.states.back().second;
+        const PathState& first = later.states.front().second;
+        const auto stood = ground_.carried({last.box, {0, 0}}, end, begin, false);
+        const auto drove = ground_.carried(movingOf(last), end, begin, false);
+        if (!stood || !drove) return false;
+        const double smaller = std::min(stood->box.area(), first.box.area());
+        const double larger = std::max(stood->box.area(), first.box.area());
+        if (!(larger <= kMeetingSizeRatio * smaller)) return false;
+        return std::max(intersectionArea(stood->box, first.box), intersectionArea(drove->box, first.box)) >=
+               kMeetingShare * smaller;
     }
 
     /// Appends `later` to `earlier` and fills the gap.
@@ -126,7 +148,54 @@ std::vector<WeightedPair> possiblePairs(const std::vector<TrackPath>& paths, con
     return pairs;
 }
 
+/// For each earlier track the one that goes on at once where it ends; nothing where several do, or it goes on several.
+std::map<std::size_t, std::size_t> meetingPairs(const std::vector<TrackPath>& paths, const FollowedEnds& followed,
+                                                const Joiner& joiner, int max_gap) {
+    LivingTracks living;
+    for (std::size_t i = 0; i < paths.size(); ++i) living.add(i, paths[i].firstFrame(), paths[i].lastFrame());
+    std::map<std::size_t, std::vector<std::size_t>> earlier_of;
+    std::map<std::size_t, int> continued;
+    for (std::size_t later = 0; later < paths.size(); ++later) {
+        const FrameIndex begin = paths[later].firstFrame();
+        for (const std::size_t earlier : living.during(std::max(0, begin - max_gap), begin)) {
+            const bool sought = followed.begins.contains(paths[later].id) || followed.ends.contains(paths[earlier].id);
+            if (!sought || !joiner.meet(paths[earlier], paths[later])) continue;
+            earlier_of[later].push_back(earlier);
+            ++continued[earlier];
+        }
+    }
+    std::map<std::size_t, std::size_t> pairs;
+    for (const auto& [later, earlier] : earlier_of) {
+        if (earlier.size() == 1 && continued[earlier.front()] == 1) pairs[earlier.front()] = later;
+    }
+    return pairs;
+}
+
 }  // namespace
+
+std::vector<std::pair<TrackId, TrackId>> joinMeeting(std::vector<TrackPath>& paths, const FollowedEnds& followed,
+                                                     const GroundMotion& ground, const FinishingOptions& options,
+                                                     const SceneScale& scale) {
+    std::vector<std::pair<TrackId, TrackId>> joined;
+    if (!(options.join_gap_s > 0) || (followed.begins.empty() && followed.ends.empty())) return joined;
+    const Joiner joiner(ground, options, scale);
+    const int max_gap = std::max(2, framesOf(std::min(kMeetingGap, options.join_gap_s), scale));
+    const auto pairs = meetingPairs(paths, followed, joiner, max_gap);
+    // The latest first, so that each takes its own continuations along.
+    std::vector<std::pair<std::size_t, std::size_t>> latest_first(pairs.begin(), pairs.end());
+    std::sort(latest_first.begin(), latest_first.end(), [&](const auto& a, const auto& b) {
+        const FrameIndex begin_a = paths[a.second].firstFrame();
+        const FrameIndex begin_b = paths[b.second].firstFrame();
+        return begin_a != begin_b ? begin_a > begin_b : a.second > b.second;
+    });
+    for (const auto& [earlier, later] : latest_first) {
+        joined.emplace_back(paths[earlier].id, paths[later].id);
+        joiner.append(paths[earlier], std::move(paths[later]));
+        paths[later].states.clear();
+    }
+    std::erase_if(paths, [](const TrackPath& path) { return path.states.empty(); });
+    return joined;
+}
 
 std::vector<TrackPath> joinFragments(std::vector<TrackPath> paths, const GroundMotion& ground,
                                      const FinishingOptions& options, const SceneScale& scale) {

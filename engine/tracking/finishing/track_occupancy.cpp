@@ -24,9 +24,13 @@ void TrackOccupancy::extended(const TrackPath& path) {
     for (const auto& [frame, state] : path.states) {
         if (noted == spanOf(frame)) continue;
         noted = spanOf(frame);
-        auto& alive = alive_[*noted];
-        if (std::find(alive.begin(), alive.end(), &path) == alive.end()) alive.push_back(&path);
+        reaches(path, frame);
     }
+}
+
+void TrackOccupancy::reaches(const TrackPath& path, FrameIndex frame) {
+    auto& alive = alive_[spanOf(frame)];
+    if (std::find(alive.begin(), alive.end(), &path) == alive.end()) alive.push_back(&path);
 }
 
 template <class Visit>

@@ -20,6 +20,8 @@ class TrackOccupancy {
     bool isFree(FrameIndex frame, const OrientedBox& box) const;
     /// To be told when a track got earlier states.
     void extended(const TrackPath& path);
+    /// To be told when a track got a state in one frame.
+    void reaches(const TrackPath& path, FrameIndex frame);
 
  private:
     template <class Visit>

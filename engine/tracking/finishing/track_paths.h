@@ -1,5 +1,7 @@
 #pragma once
 
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "tracking/finishing/track_finishing.h"
@@ -104,5 +106,23 @@ void extendToRest(std::vector<TrackPath>& paths, const GroundMotion& ground, int
 /// while the box stays in the image and off other tracks. Tracks that came in over the border less than `entry_frames`
 /// before they were found are extended back to it.
 void extendBack(std::vector<TrackPath>& paths, const GroundMotion& ground, int frames, int entry_frames);
+
+/// Tracks that were followed on, by where they were.
+struct FollowedEnds {
+    std::set<TrackId> begins;
+    std::set<TrackId> ends;
+};
+
+/// Follows tracks that are surely vehicles by their score on in the pictures where they begin or end in mid-picture, by
+/// at most `frames` each way: while the pictures surely show them, they brake as vehicles do, lie in the image and keep
+/// off other tracks. What stands there is not followed. Reads every frame that it needs once, in order.
+FollowedEnds followEnds(std::vector<TrackPath>& paths, const GroundMotion& ground, const GrayOfFrame& gray_at,
+                        int frames, const SceneScale& scale);
+
+/// Joins tracks that were followed to one another: where one ends another begins at once and at the same place, and
+/// nothing else does, however it turned meanwhile. Tells which went into which.
+std::vector<std::pair<TrackId, TrackId>> joinMeeting(std::vector<TrackPath>& paths, const FollowedEnds& followed,
+                                                     const GroundMotion& ground, const FinishingOptions& options,
+                                                     const SceneScale& scale);
 
 }  // namespace eyrie

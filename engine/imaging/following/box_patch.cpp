@@ -1,4 +1,4 @@
-#include "annotation/pictures/box_patch.h"
+#include "imaging/following/box_patch.h"
 
 #include <algorithm>
 #include <cmath>
