@@ -22,6 +22,7 @@ constexpr double kBrakingSeconds = 0.4;     ///< over which that is measured …
 constexpr double kBrakingFewestFrames = 3;  ///< … and frames, at least
 constexpr double kPlaceError = 1;           ///< px by which both ends of that may be off
 constexpr double kJumpShare = 0.25;         ///< of a vehicle's size by which its speed may change from frame to frame
+constexpr std::size_t kLastStates = 5;      ///< of an end, in which it was seen without a gap
 constexpr int kMostGuessed = 8;             ///< frames of a guessed beginning; longer ones tell where it stood
 constexpr std::size_t kMostHeldBytes = 200'000'000;  ///< of pictures, for those who are followed back
 
@@ -159,7 +160,7 @@ class EndFollowing {
                 moves(*seen)) {
                 begins_[seen->first].push_back(i);
             }
-            if (wasSeen(states.back()) && inMidPicture(states.back()) && moves(states.back()))
+            if (seenToTheEnd(paths[i]) && inMidPicture(states.back()) && moves(states.back()))
                 ends_[states.back().first].push_back(i);
         }
     }
@@ -195,6 +196,12 @@ class EndFollowing {
 
     bool isSure(const TrackPath& path) const {
         return path.states.back().second.score >= kSureTrack && path.statesOf(StateOrigin::detected) >= kSurelyDetected;
+    }
+    /// What was seen once after it was lost may be another.
+    static bool seenToTheEnd(const TrackPath& path) {
+        const auto& states = path.states;
+        const auto last = static_cast<std::ptrdiff_t>(std::min(kLastStates, states.size()));
+        return std::all_of(states.end() - last, states.end(), wasSeen);
     }
     bool inMidPicture(const TimedPathState& state) const { return !ground_.cutByBorder(state.second.box, state.first); }
     bool moves(const TimedPathState& state) const {
