@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 #include <span>
 
 #include "tracking/finishing/frames_of.h"
 #include "tracking/finishing/track_paths.h"
 #include "tracking/ground_motion.h"
+#include "tracking/picture_finishing.h"
 
 namespace eyrie {
 namespace {
@@ -321,32 +321,6 @@ void FinishedTracks::visitDropped(const StatesOfRun& states, const DropVisitor& 
     }
 }
 
-namespace {
-
-/// Follows tracks on where they end, and joins those that meet: they keep the better score, and what speaks for it.
-void followOn(FinishedTracks& finished, const GroundMotion& ground, const FinishingOptions& options,
-              const SceneScale& scale, const GrayOfFrame& gray_at) {
-    std::vector<TrackPath>& paths = finished.paths;
-    const FollowedEnds followed = followEnds(paths, ground, gray_at, framesOf(options.follow_ends_s, scale), scale);
-    std::set<TrackId> grown;
-    for (const auto& [older, later] : joinMeeting(paths, followed, ground, options, scale)) {
-        const TrackEvidence of_later = finished.evidence[later];
-        TrackEvidence& evidence = finished.evidence[older];
-        if (of_later.score > evidence.score) evidence = of_later;
-        finished.evidence.erase(later);
-        grown.insert(older);
-        for (DroppedPath& path : finished.dropped) {
-            if (path.beside == later) path.beside = older;
-        }
-    }
-    for (TrackPath& path : paths) {
-        if (!grown.contains(path.id)) continue;
-        for (auto& [frame, state] : path.states) state.score = static_cast<float>(finished.evidence[path.id].score);
-    }
-}
-
-}  // namespace
-
 FinishedTracks finishRun(const StatesOfRun& states, const GroundMotion& ground, const FinishingOptions& options,
                          const SceneScale& scale, const FoundInFrames& found) {
     FinishedTracks finished;
@@ -382,8 +356,7 @@ FinishedTracks finishRun(const StatesOfRun& states, const GroundMotion& ground, 
     extendToRest(paths, ground, framesOf(options.from_rest_s, scale), scale);
     extendBack(paths, ground, options.extend_back, framesOf(options.extend_entry_s, scale));
     if (judged) scoreTracks(paths, ground, looks, options.min_score, scale, finished);
-    if (judged) followOn(finished, ground, options, scale, found.gray_at);
-    if (judged && options.trim_shadows && found.gray_at) trimShadows(paths, ground, found.gray_at, scale);
+    if (judged) finishByPictures(finished, ground, options, scale, found.gray_at);
     confirm(paths);
     confirm(finished.doubtful);
     return finished;

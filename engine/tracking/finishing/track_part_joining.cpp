@@ -99,7 +99,8 @@ std::optional<Whole> wholeOf(const TrackPath& leader, const TrackPath& other, co
     return whole;
 }
 
-/// Whether a track is a part of the vehicle also where the other part is not seen: it is no longer there than beside it.
+/// Whether a track is a part of the vehicle also where the other part is not seen: it is no longer there than beside
+/// it.
 bool partThroughout(const TrackPath& path, const TrackPath& other) {
     std::vector<double> beside, alone;
     for (const auto& [frame, state] : path.states)

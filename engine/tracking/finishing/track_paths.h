@@ -89,10 +89,6 @@ void dropStanding(std::vector<TrackPath>& paths, const GroundMotion& ground, con
 void scoreTracks(std::vector<TrackPath>& paths, const GroundMotion& ground, const VehicleLooks& looks, double min_score,
                  const SceneScale& scale, FinishedTracks& finished);
 
-/// Takes the shadow out of the boxes of sure tracks; see castShadows() and takeOutShadows(). Reads pictures.
-void trimShadows(std::vector<TrackPath>& paths, const GroundMotion& ground, const GrayOfFrame& gray_at,
-                 const SceneScale& scale);
-
 /// Follows tracks back in time by the motion vectors in their boxes, by at most `frames`: where a vehicle starts slowly
 /// or hardly stands out, single vectors show it long before there are enough for a detection.
 void traceBack(std::vector<TrackPath>& paths, const GroundMotion& ground, const VectorsAt& vectors_at, int frames);

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <map>
-#include <set>
 
 #include "core/robust_statistics.h"
 #include "tracking/shadows/shadow_share.h"
@@ -91,9 +90,9 @@ bool isShadedSide(const CastShadow& shadow, const std::vector<SilhouetteLook>& l
 
 std::vector<CastShadow> castShadows(const std::vector<SilhouetteLook>& looks, const GroundTurns& turns,
                                     const SceneScale& scale) {
-    std::map<std::pair<FrameIndex, std::size_t>, int> looks_of;  // sure ones, by stretch and track
+    std::map<std::pair<FrameIndex, TrackId>, int> looks_of;  // sure ones, by stretch and track
     for (const SilhouetteLook& look : looks) {
-        if (look.silhouette.lit_vehicle) ++looks_of[{turns.at(look.frame).stretch, look.path}];
+        if (look.silhouette.lit_vehicle) ++looks_of[{turns.at(look.frame).stretch, look.track}];
     }
     std::map<FrameIndex, std::vector<ShadowSide>> sides_of;
     std::map<FrameIndex, int> tracks_of;
@@ -106,7 +105,7 @@ std::vector<CastShadow> castShadows(const std::vector<SilhouetteLook>& looks, co
         const BoxEdges& lit = *look.silhouette.lit;
         const double heading = look.box.heading - turn.angle;
         const cv::Point2d along(std::cos(heading), std::sin(heading));
-        const double weight = 1.0 / looks_of[{turn.stretch, look.path}];
+        const double weight = 1.0 / looks_of[{turn.stretch, look.track}];
         std::vector<ShadowSide>& sides = sides_of[turn.stretch];
         sides.push_back({along, (whole.front - lit.front + whole.rear - lit.rear) / metre, weight});
         sides.push_back({{-along.y, along.x}, (whole.right - lit.right + whole.left - lit.left) / metre, weight});

@@ -3,7 +3,6 @@
 #include <map>
 
 #include "core/robust_statistics.h"
-#include "tracking/finishing/track_paths.h"
 #include "tracking/shadows/cast_shadow.h"
 #include "tracking/shadows/shadow_share.h"
 
@@ -41,20 +40,20 @@ OrientedBox withoutEnds(const OrientedBox& box, cv::Point2d less) {
 
 void takeOutShadows(std::vector<TrackPath>& paths, const std::vector<SilhouetteLook>& looks,
                     const std::vector<CastShadow>& shadows, const GroundTurns& turns, const SceneScale& scale) {
-    std::map<std::size_t, TrackShares> shares;
+    std::map<TrackId, TrackShares> shares;
     for (const SilhouetteLook& look : looks) {
         const GroundTurns::Turn& turn = turns.at(look.frame);
         const CastShadow* shadow = shadowIn(shadows, turn.stretch);
         if (shadow == nullptr) continue;
         const ShadowShare share = shareInBox(look, reachAt(*shadow, turn, look.box.centre, scale), kFallsAside);
-        if (share.along) shares[look.path].along.push_back(*share.along);
-        if (share.across) shares[look.path].across.push_back(*share.across);
+        if (share.along) shares[look.track].along.push_back(*share.along);
+        if (share.across) shares[look.track].across.push_back(*share.across);
     }
-    for (const auto& [path, of_track] : shares) {
-        const double along = usualShare(of_track.along);
-        const double across = usualShare(of_track.across);
+    for (TrackPath& path : paths) {
+        const double along = usualShare(shares[path.id].along);
+        const double across = usualShare(shares[path.id].across);
         if (along == 0 && across == 0) continue;
-        for (auto& [frame, state] : paths[path].states) {
+        for (auto& [frame, state] : path.states) {
             const GroundTurns::Turn& turn = turns.at(frame);
             const CastShadow* shadow = shadowIn(shadows, turn.stretch);
             if (shadow == nullptr) continue;
@@ -63,20 +62,6 @@ void takeOutShadows(std::vector<TrackPath>& paths, const std::vector<SilhouetteL
             state.box = withoutEnds(box, {along * reach.x, across * reach.y});
         }
     }
-}
-
-void trimShadows(std::vector<TrackPath>& paths, const GroundMotion& ground, const GrayOfFrame& gray_at,
-                 const SceneScale& scale) {
-    const std::vector<SilhouetteLook> looks = lookAtSilhouettes(paths, ground, gray_at, scale);
-    if (looks.empty()) return;
-    FrameIndex first = looks.front().frame;
-    FrameIndex last = first;
-    for (const TrackPath& path : paths) {
-        first = std::min(first, path.firstFrame());
-        last = std::max(last, path.lastFrame());
-    }
-    const GroundTurns turns(ground, first, last);
-    takeOutShadows(paths, looks, castShadows(looks, turns, scale), turns, scale);
 }
 
 }  // namespace eyrie

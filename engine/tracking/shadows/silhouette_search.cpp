@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "core/geometry/homography_jacobian.h"
+#include "core/values/last_frame.h"
 #include "tracking/finishing/frames_of.h"
 #include "tracking/finishing/track_occupancy.h"
 
@@ -21,19 +21,11 @@ constexpr double kMarginAbout = 1.2;  ///< m about a vehicle
 constexpr double kGridStep = 0.1;     ///< m, at least half a pixel
 constexpr double kClear = 0.7;        ///< share of the margin that other boxes stay off
 
-/// A look for which not all pictures have been read.
-struct PlannedLook {
-    SilhouetteLook look;
-    SilhouetteGrid grid;
-    std::vector<std::pair<FrameIndex, cv::Matx33d>> grounds;  ///< pictures and the way there
-    cv::Mat vehicle = {};
-    std::vector<cv::Mat> seen = {};
-    FrameIndex last = 0;
-};
+}  // namespace
 
-class LookPlan {
+class SilhouetteSearch::Plan {
  public:
-    LookPlan(const std::vector<TrackPath>& paths, const GroundMotion& ground, const SceneScale& scale)
+    Plan(const std::vector<TrackPath>& paths, const GroundMotion& ground, const SceneScale& scale)
         : paths_(paths),
           ground_(ground),
           scale_(scale),
@@ -41,16 +33,16 @@ class LookPlan {
           apart_(std::max(1, framesOf(kPicturesApart, scale))),
           within_(framesOf(kGroundWithin, scale)) {}
 
-    std::vector<PlannedLook> planned() const {
-        std::vector<PlannedLook> looks;
-        for (std::size_t i = 0; i < paths_.size(); ++i) {
-            if (paths_[i].states.front().second.score < kSureVehicle) continue;
-            for (const TimedPathState* state : momentsOf(paths_[i])) {
+    std::vector<Planned> looks() const {
+        std::vector<Planned> looks;
+        for (const TrackPath& path : paths_) {
+            if (path.states.front().second.score < kSureVehicle) continue;
+            for (const TimedPathState* state : momentsOf(path)) {
                 const OrientedBox box = state->second.box;
                 const double metre = scale_.at(box.centre).px(1);
-                PlannedLook look{{i, state->first, box, {}},
-                                 SilhouetteGrid(box, kMarginAbout * metre, std::max(0.5, kGridStep * metre)),
-                                 {}};
+                Planned look{{path.id, state->first, box, {}},
+                             SilhouetteGrid(box, kMarginAbout * metre, std::max(0.5, kGridStep * metre)),
+                             {}};
                 addGrounds(look, -1);
                 addGrounds(look, 1);
                 if (look.grounds.empty()) continue;
@@ -76,7 +68,7 @@ class LookPlan {
     }
 
     /// Goes through the pictures to one side, nearest first.
-    void addGrounds(PlannedLook& look, int direction) const {
+    void addGrounds(Planned& look, int direction) const {
         cv::Matx33d there = cv::Matx33d::eye();
         int found = 0;
         for (int gone = 1; gone <= within_ && found < kGroundsASide; ++gone) {
@@ -109,41 +101,52 @@ class LookPlan {
     int within_;  ///< frames
 };
 
-}  // namespace
-
-std::vector<SilhouetteLook> lookAtSilhouettes(const std::vector<TrackPath>& paths, const GroundMotion& ground,
-                                              const GrayOfFrame& gray_at, const SceneScale& scale) {
-    std::vector<PlannedLook> planned = LookPlan(paths, ground, scale).planned();
-    std::map<FrameIndex, std::vector<std::size_t>> wanted_by;  // looks, by the pictures that they need
-    for (std::size_t i = 0; i < planned.size(); ++i) {
-        wanted_by[planned[i].look.frame].push_back(i);
-        for (const auto& [frame, map] : planned[i].grounds) wanted_by[frame].push_back(i);
+SilhouetteSearch::SilhouetteSearch(const std::vector<TrackPath>& paths, const GroundMotion& ground,
+                                   const SceneScale& scale)
+    : planned_(Plan(paths, ground, scale).looks()) {
+    for (std::size_t i = 0; i < planned_.size(); ++i) {
+        wanting_[planned_[i].look.frame].push_back(i);
+        for (const auto& [frame, map] : planned_[i].grounds) wanting_[frame].push_back(i);
     }
-    std::vector<SilhouetteLook> looks;
-    for (const auto& [frame, wanting] : wanted_by) {
-        const cv::Mat gray = gray_at(frame);
-        for (const std::size_t i : wanting) {
-            PlannedLook& plan = planned[i];
-            if (frame == plan.look.frame) {
-                plan.vehicle = gray.empty() ? cv::Mat() : plan.grid.sampled(gray);
-            } else if (!gray.empty()) {
-                const auto way = std::find_if(plan.grounds.begin(), plan.grounds.end(),
-                                              [&](const auto& ground_at) { return ground_at.first == frame; });
-                cv::Mat bare = plan.grid.sampled(gray, way->second);
-                if (!bare.empty()) plan.seen.push_back(std::move(bare));
-            }
-            if (frame != plan.last) continue;
-            if (!plan.vehicle.empty() && !plan.seen.empty()) {
-                if (const auto silhouette = plan.grid.compare(plan.vehicle, plan.seen)) {
-                    plan.look.silhouette = *silhouette;
-                    looks.push_back(plan.look);
-                }
-            }
-            plan.vehicle.release();
-            plan.seen.clear();
+}
+
+void SilhouetteSearch::show(FrameIndex frame, const cv::Mat& gray) {
+    const auto wanting = wanting_.find(frame);
+    if (wanting == wanting_.end()) return;
+    for (const std::size_t i : wanting->second) take(planned_[i], frame, gray);
+    wanting_.erase(wanting);
+}
+
+void SilhouetteSearch::take(Planned& planned, FrameIndex frame, const cv::Mat& gray) {
+    if (!gray.empty() && frame == planned.look.frame) {
+        planned.vehicle = planned.grid.sampled(gray);
+    } else if (!gray.empty()) {
+        const auto way = std::find_if(planned.grounds.begin(), planned.grounds.end(),
+                                      [&](const auto& ground) { return ground.first == frame; });
+        cv::Mat bare = planned.grid.sampled(gray, way->second);
+        if (!bare.empty()) planned.seen.push_back(std::move(bare));
+    }
+    if (frame != planned.last) return;
+    if (!planned.vehicle.empty() && !planned.seen.empty()) {
+        if (const auto silhouette = planned.grid.compare(planned.vehicle, planned.seen)) {
+            looks_.push_back(planned.look);
+            looks_.back().silhouette = *silhouette;
         }
     }
-    return looks;
+    planned.vehicle.release();
+    planned.seen.clear();
+}
+
+void SilhouetteSearch::readUpTo(FrameIndex frame, const GrayOfFrame& gray_at) {
+    while (!wanting_.empty() && wanting_.begin()->first < frame) {
+        const FrameIndex next = wanting_.begin()->first;
+        show(next, gray_at(next));
+    }
+}
+
+std::vector<SilhouetteLook> SilhouetteSearch::finish(const GrayOfFrame& gray_at) {
+    readUpTo(kLastFrame + 1, gray_at);
+    return std::move(looks_);
 }
 
 }  // namespace eyrie

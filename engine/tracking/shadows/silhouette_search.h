@@ -1,5 +1,8 @@
 #pragma once
 
+#include <map>
+#include <opencv2/core/mat.hpp>
+#include <utility>
 #include <vector>
 
 #include "tracking/finishing/track_finishing.h"
@@ -10,15 +13,43 @@ namespace eyrie {
 
 /// The silhouette of a track's vehicle in one picture.
 struct SilhouetteLook {
-    std::size_t path = 0;  ///< its place among the paths
+    TrackId track = 0;
     FrameIndex frame = 0;
     OrientedBox box;  ///< of its state
     Silhouette silhouette;
 };
 
 /// Looks at the vehicles of sure tracks, each at some moments of its life spread over it, beside pictures from before
-/// and after in which no track covers the ground there. Reads each picture that it needs once, in ascending order.
-std::vector<SilhouetteLook> lookAtSilhouettes(const std::vector<TrackPath>& paths, const GroundMotion& ground,
-                                              const GrayOfFrame& gray_at, const SceneScale& scale);
+/// and after in which no track covers the ground there. It is shown each picture that it needs once, in ascending
+/// order, and keeps of them what it compares only.
+class SilhouetteSearch {
+ public:
+    SilhouetteSearch(const std::vector<TrackPath>& paths, const GroundMotion& ground, const SceneScale& scale);
+
+    /// Shows it a picture, CV_8UC1; an empty one shows nothing. Of frames that it does not need nothing is taken.
+    void show(FrameIndex frame, const cv::Mat& gray);
+    /// Reads all pictures that it needs before a frame and was not shown.
+    void readUpTo(FrameIndex frame, const GrayOfFrame& gray_at);
+    /// Reads what is missing. All looks, in the order in which their last pictures came.
+    std::vector<SilhouetteLook> finish(const GrayOfFrame& gray_at);
+
+ private:
+    /// A look of which not all pictures have come.
+    struct Planned {
+        SilhouetteLook look;
+        SilhouetteGrid grid;
+        std::vector<std::pair<FrameIndex, cv::Matx33d>> grounds;  ///< pictures and the way there
+        FrameIndex last = 0;                                      ///< the last one of all
+        cv::Mat vehicle = {};
+        std::vector<cv::Mat> seen = {};
+    };
+    class Plan;
+
+    void take(Planned& planned, FrameIndex frame, const cv::Mat& gray);
+
+    std::vector<Planned> planned_;
+    std::map<FrameIndex, std::vector<std::size_t>> wanting_;  ///< looks, by the pictures that have not come
+    std::vector<SilhouetteLook> looks_;
+};
 
 }  // namespace eyrie
