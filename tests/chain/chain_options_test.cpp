@@ -355,6 +355,7 @@ TEST(ChainOptions, theThesisPresetDiffersFromTheDefaultsWhereItMust) {
         {"finishing.min_width", "0"},
         {"finishing.max_sharing", "1"},
         {"finishing.drop_shadows", "false"},
+        {"finishing.trim_shadows", "false"},
         {"finishing.min_detected", "0"},
         {"finishing.standing_height", "0"},
         {"finishing.standing_depth", "0"},

@@ -109,6 +109,7 @@ TEST(EndFollowing, withoutPicturesOrSwitchedOffNothingChanges) {
     EXPECT_EQ(without.begin()->first, kFound - 5) << "as finishing.extend_back guesses it";
     EXPECT_EQ(without.rbegin()->first, kLost);
     car.options.follow_ends_s = 0;
+    car.options.trim_shadows = false;
     const auto off = car.finished();
     EXPECT_EQ(off.begin()->first, kFound - 5);
     EXPECT_EQ(off.rbegin()->first, kLost);

@@ -54,6 +54,25 @@ TEST(OverlappingParts, MakeOneBoxAroundBoth) {
     });
 }
 
+TEST(OverlappingParts, DoNotGrowTheBoxOfWhatIsWholeWhileAlone) {
+    // A van in two parts for 30 frames; then the leader's box holds all of it, or remains the part that it was.
+    Lane front, rear;
+    front.size = {10, 8};
+    front.count = 80;
+    rear.size = {10, 8};
+    rear.offset = {-11, 0};
+    rear.count = 30;
+    for (const double alone : {21.0, 12.0}) {
+        onEveryRoad(front, rear, [&](std::vector<TrackPath> paths) {
+            for (std::size_t i = 30; i < 80; ++i) paths[0].states[i].second.box.length = static_cast<float>(alone);
+            joinParts(paths, kFourToAMetre, PartsOfVehicle::in_line);
+            ASSERT_EQ(paths.size(), 1U);
+            EXPECT_NEAR(paths[0].states[10].second.box.length, 21, 1e-3);
+            EXPECT_NEAR(paths[0].states[60].second.box.length, alone == 21 ? 21 : 23, 1e-3);
+        });
+    }
+}
+
 TEST(OverlappingParts, ShareATenthOfTheSmaller) {
     Lorry lorry;
     for (const double side : {-1.0, 1.0}) {
