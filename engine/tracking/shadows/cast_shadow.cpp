@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kFewestTracks = 4;          ///< one vehicle may be dark on one side
 constexpr double kShortestShadow = 0.25;  ///< m
-constexpr double kLeastAgreement = 0.7;   ///< of what vehicles say
+constexpr double kLeastAgreement = 0.8;   ///< of what vehicles say
 constexpr double kLargestResidual = 0.4;  ///< of the reach
 constexpr double kMainSide = 0.5;         ///< of the reach: a side that the shadow falls to
 constexpr double kWhollyInBoxes = 0.95;   ///< share from which on it is no shadow on the ground

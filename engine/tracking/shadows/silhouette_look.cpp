@@ -14,6 +14,7 @@ constexpr double kBrightestShadow = 0.85;  ///< shares of the ground's brightnes
 constexpr double kDarkGround = 60;         ///< grey values; at night lamps and beams make up the silhouettes
 constexpr double kBulk = 0.3;              ///< rows with less of the area than this share of the fullest are fringe
 constexpr double kLitArea = 0.35;          ///< of the whole silhouette: less is a roof, a window or a lamp …
+constexpr double kLitLength = 1.3;         ///< of its width: shorter is a roof before the vehicle's own shaded rear …
 constexpr double kLitFilled = 0.6;         ///< … and so is what fills less of its own edges
 
 /// First and last of the rows, or columns, that hold enough.
@@ -120,7 +121,8 @@ std::optional<Silhouette> SilhouetteGrid::compare(const cv::Mat& vehicle, const 
                         cvRound(edges.left / step_ + places_.height / 2.0), cvRound((edges.front - edges.rear) / step_),
                         cvRound((edges.right - edges.left) / step_));
     const double filled = static_cast<double>(cv::countNonZero(lit(area))) / area.area();
-    silhouette.lit_vehicle = edges.area() > kLitArea * whole->area() && filled > kLitFilled;
+    const bool long_enough = edges.front - edges.rear > kLitLength * (edges.right - edges.left);
+    silhouette.lit_vehicle = edges.area() > kLitArea * whole->area() && filled > kLitFilled && long_enough;
     return silhouette;
 }
 
