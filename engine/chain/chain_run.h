@@ -20,6 +20,7 @@ struct RunProgress {
     double frames_per_second = 0;  ///< over the last seconds
     double seconds_left = 0;
     bool estimating_scale = false;  ///< before the run proper: the frames are those of chooseScale's look
+    bool finishing = false;         ///< after it: those up to which finishing has read pictures once more
 };
 
 /// How often the state of a run is kept.

@@ -91,6 +91,27 @@ TEST(RunRecorder, picturesAreReadOnceMoreWhereTheRunIsWhole) {
     EXPECT_EQ(finishedWith(folder / "gone.eyrie", 1000, true).record.state, RunState::finished);
 }
 
+TEST(RunRecorder, aStopWhilePicturesAreReadOnceMoreLeavesAStoppedRun) {
+    const test::TemporaryFolder folder;
+    test::MovingScene scene;
+    scene.frames = 60;
+    CountedSource source(scene);
+    const SceneScale scale = sceneScale(source.info(), 0.2);
+    RunRecorder recorder(folder / "p.eyrie", plannedRun(source.info(), scale, {}, "default"), ChainOptions{});
+    const RunSummary summary = ChainRun(ChainOptions{}, scale).run(source, {}, recorder, {});
+    std::stop_source stop;
+    stop.request_stop();
+    const RunRecord run = recorder.finish(summary, &source, stop.get_token());
+    EXPECT_EQ(run.state, RunState::stopped);
+    EXPECT_EQ(run.frames_done, 60);
+    EXPECT_EQ(run.message, "stopped while its tracks were finished");
+    const ResumedRun resumed = resumedRun(folder / "p.eyrie", run.id, source);
+    RunRecorder again(folder / "p.eyrie", resumed);
+    const RunSummary rest =
+        ChainRun(resumed.options, scale).run(source, resumed.range(), again, {}, false, resumed.start);
+    EXPECT_EQ(again.finish(rest, &source).state, RunState::finished);
+}
+
 TEST(RunRecorder, aFinishedRunIsShownAgainWithoutTheVideo) {
     const test::TemporaryFolder folder;
     const RunRecord run = record(folder / "p.eyrie", 1000);

@@ -11,7 +11,12 @@ namespace eyrie::ui {
 
 namespace {
 constexpr int kPoll_ms = 200;
+
+/// A run may be stopped while its tracks are finished, too.
+void takeOutcome(const RunRecord& run, RunSummary& summary) {
+    if (run.state == RunState::stopped) summary.outcome = RunOutcome::stopped;
 }
+}  // namespace
 
 RunController::RunController(QObject* parent) : QObject(parent) {
     poll_.setInterval(kPoll_ms);
@@ -89,7 +94,7 @@ void RunController::work(const RunRequest& request, LiveFeed& feed, const Backgr
             task.tell([this, record = resumed.run] { emit started(record); });
             summary = ChainRun(resumed.options, resumed.run.scale)
                           .run(*source, resumed.range(), recorder, stop, true, resumed.start);
-            recorder.finish(summary, source.get());
+            takeOutcome(recorder.finish(summary, source.get(), stop), summary);
         } else {
             const StatedScale stated = statedScale(*source, request.range.first, request.range.last,
                                                    request.gsd_m_per_px, request.gsd_origin, stop);
@@ -104,7 +109,7 @@ void RunController::work(const RunRequest& request, LiveFeed& feed, const Backgr
             record.id = run_id;
             task.tell([this, record] { emit started(record); });
             summary = ChainRun(request.options, chosen.scale).run(*source, request.range, recorder, stop, true);
-            recorder.finish(summary, source.get());
+            takeOutcome(recorder.finish(summary, source.get(), stop), summary);
         }
     } catch (const std::exception& error) {
         summary.outcome = stop.stop_requested() && run_id == 0 ? RunOutcome::stopped : RunOutcome::failed;

@@ -86,12 +86,15 @@ class ConsoleObserver : public ChainObserver {
     }
     void onProgress(const RunProgress& progress) override {
         if (quiet_) return;
-        progress_.show(progress.frames_done, progress.frames_total, progress.frames_per_second, progress.seconds_left);
+        if (progress.finishing && !finishing_) finishing_.emplace("frames, finishing the tracks");
+        (finishing_ ? *finishing_ : progress_)
+            .show(progress.frames_done, progress.frames_total, progress.frames_per_second, progress.seconds_left);
     }
 
  private:
     bool quiet_;
     ConsoleProgress progress_{"frames"};
+    std::optional<ConsoleProgress> finishing_;
     Annotator annotator_;
     std::unique_ptr<VideoWriter> writer_;
 };
@@ -144,9 +147,10 @@ struct EndedRun {
 };
 
 /// Finishes the run and takes what only its recorder knows.
-void takeRecord(EndedRun& ended, RunRecorder& recorder, FrameSource& source) {
+void takeRecord(EndedRun& ended, RunRecorder& recorder, FrameSource& source, const std::stop_token& stop) {
     ended.summary.median_ms[static_cast<std::size_t>(Stage::store)] = recorder.medianStoreMs();
-    ended.record = recorder.finish(ended.summary, &source);
+    ended.record = recorder.finish(ended.summary, &source, stop);
+    if (ended.record.state == RunState::stopped) ended.summary.outcome = RunOutcome::stopped;
 }
 
 /// What stands on the command line of a run to be resumed; `source` is the input, if one was given.
@@ -190,7 +194,7 @@ EndedRun runAnew(const RunArguments& arguments, FrameSource& source, const std::
                          unlessBegunMeanwhile(arguments, source, project));
     EndedRun ended;
     ended.summary = ChainRun(options, chosen.scale).run(source, range, recorder, stop, !arguments.annotated.empty());
-    takeRecord(ended, recorder, source);
+    takeRecord(ended, recorder, source, stop);
     ended.has_video = console.finishVideo(ended.summary.outcome == RunOutcome::failed);
     return ended;
 }
@@ -261,7 +265,7 @@ EndedRun goOn(const RunArguments& arguments, const RunRecord& run, FrameSource& 
     EndedRun ended;
     ended.summary = ChainRun(resumed.options, run.scale)
                         .run(source, resumed.range(), recorder, stop, !arguments.annotated.empty(), resumed.start);
-    takeRecord(ended, recorder, source);
+    takeRecord(ended, recorder, source, stop);
     ended.has_video = console.finishVideo(ended.summary.outcome == RunOutcome::failed);
     return ended;
 }

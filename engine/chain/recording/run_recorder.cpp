@@ -1,6 +1,8 @@
 #include "chain/recording/run_recorder.h"
 
 #include <algorithm>
+#include <chrono>
+#include <optional>
 #include <utility>
 
 #include "chain/recording/classified_vehicles.h"
@@ -26,17 +28,55 @@ std::vector<std::pair<std::string, std::string>> storedParameters(const ChainOpt
     return values;
 }
 
-/// Frames that cannot be read any more are none.
-GrayOfFrame grayFrames(FrameSource* source) {
-    if (source == nullptr) return {};
-    return [source](FrameIndex frame) {
+constexpr std::chrono::milliseconds kTellEvery(200);
+
+/// The pictures of a run once more, for finishing, which asks for them in ascending order. Tells how far it is. None
+/// that cannot be read any more, and none from a stop on.
+class PicturesOnceMore {
+ public:
+    PicturesOnceMore(FrameSource& source, FrameIndex first, int frames, ChainObserver* told, std::stop_token stop)
+        : source_(source), first_(first), told_(told), stop_(std::move(stop)) {
+        progress_.frames_total = frames;
+        progress_.finishing = true;
+    }
+
+    cv::Mat operator()(FrameIndex frame) {
+        stopped_ = stopped_ || stop_.stop_requested();
+        if (stopped_) return {};
+        tell(frame);
         try {
-            return source->read(frame, false).gray;
+            return source_.read(frame, false).gray;
         } catch (const Error&) {
-            return cv::Mat();
+            return {};
         }
-    };
-}
+    }
+    /// Whether a picture was refused: then what finishing did with them is incomplete.
+    bool stopped() const { return stopped_; }
+
+ private:
+    using Clock = std::chrono::steady_clock;
+
+    void tell(FrameIndex frame) {
+        const Clock::time_point now = Clock::now();
+        if (told_ == nullptr || now - last_told_ < kTellEvery) return;
+        last_told_ = now;
+        progress_.frames_done = frame - first_;
+        const std::chrono::duration<double> passed = now - begin_;
+        progress_.frames_per_second = progress_.frames_done / std::max(passed.count(), 1e-6);
+        const int left = progress_.frames_total - progress_.frames_done;
+        progress_.seconds_left = left / std::max(progress_.frames_per_second, 1e-6);
+        told_->onProgress(progress_);
+    }
+
+    FrameSource& source_;
+    FrameIndex first_;
+    ChainObserver* told_;
+    std::stop_token stop_;
+    bool stopped_ = false;
+    RunProgress progress_;
+    Clock::time_point begin_ = Clock::now();
+    Clock::time_point last_told_ = begin_;
+};
 
 }  // namespace
 
@@ -78,10 +118,10 @@ float RunRecorder::medianStoreMs() const {
     return *middle;
 }
 
-RunRecord RunRecorder::finish(const RunSummary& summary, FrameSource* source) {
-    const RunState state = summary.outcome == RunOutcome::finished  ? RunState::finished
-                           : summary.outcome == RunOutcome::stopped ? RunState::stopped
-                                                                    : RunState::failed;
+RunRecord RunRecorder::finish(const RunSummary& summary, FrameSource* source, std::stop_token stop) {
+    RunState state = summary.outcome == RunOutcome::finished  ? RunState::finished
+                     : summary.outcome == RunOutcome::stopped ? RunState::stopped
+                                                              : RunState::failed;
     // Whenever the program is killed here, the run can be gone on with: finished tracks without the others beside them
     // are those of a finished run.
     if (state != RunState::finished) writer_.finish(state, summary.message);
@@ -98,8 +138,20 @@ RunRecord RunRecorder::finish(const RunSummary& summary, FrameSource* source) {
     const ClassifiedAt classified_at = [&](FrameIndex frame) { return store.classifiedBoxes(writer_.runId(), frame); };
     FoundInFrames found(vectors_at, classifiedVehicles(options_, classified_at));
     // Whoever stopped a run does not wait for its pictures once more.
-    if (state == RunState::finished) found.gray_at = grayFrames(source);
+    std::optional<PicturesOnceMore> pictures;
+    if (state == RunState::finished && source != nullptr) {
+        const RunRecord run = store.run(writer_.runId()).value();
+        pictures.emplace(*source, run.first_frame, run.last_frame - run.first_frame + 1, also_, std::move(stop));
+        found.gray_at = [&](FrameIndex frame) { return (*pictures)(frame); };
+    }
     const FinishedTracks finished = finishRun(followed, ground, options_.finishing, scale_, found);
+    std::string message = summary.message;
+    if (pictures && pictures->stopped()) {
+        // As if it had been stopped in its last frame, so that whoever goes on with it gets the whole.
+        state = RunState::stopped;
+        message = "stopped while its tracks were finished";
+        writer_.finish(state, message);
+    }
     RunStateStore(project).keepTracks(writer_.runId());
     TracksOfRun tracks;
     tracks.states = [&](const StateVisitor& visitor) { finished.visit(visitor); };
@@ -107,7 +159,7 @@ RunRecord RunRecorder::finish(const RunSummary& summary, FrameSource* source) {
     tracks.doubtful = [&](const StateVisitor& visitor) { finished.visitDoubtful(visitor); };
     tracks.evidence = finished.evidence;
     store.replaceTracks(writer_.runId(), tracks);
-    if (state == RunState::finished) writer_.finish(state, summary.message);
+    if (state == RunState::finished) writer_.finish(state, message);
     return store.run(writer_.runId()).value();
 }
 

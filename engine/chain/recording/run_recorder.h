@@ -34,8 +34,9 @@ class RunRecorder : public ChainObserver {
     /// Median time that storing a frame took; 0 before the first.
     float medianStoreMs() const;
     /// Finishes the tracks (see finishRun), closes the run with the summary's outcome and returns its record.
-    /// `source`: where the pictures of the run can be read once more; null where they cannot.
-    RunRecord finish(const RunSummary& summary, FrameSource* source = nullptr);
+    /// `source`: where the pictures of the run can be read once more; null where they cannot. A stop meanwhile leaves a
+    /// stopped run, as one during the run does.
+    RunRecord finish(const RunSummary& summary, FrameSource* source = nullptr, std::stop_token stop = {});
 
  private:
     std::filesystem::path project_;

@@ -180,8 +180,9 @@ void StatusFields::showRun(const RunProgress& progress) {
     const double share =
         progress.frames_total > 0 ? progress.frames_done / static_cast<double>(progress.frames_total) : 0;
     const int percent = static_cast<int>(share * 100);
-    QString text =
-        progress.estimating_scale ? tr("estimating the scale: %1 %").arg(percent) : tr("run: %1 %").arg(percent);
+    QString text = progress.estimating_scale ? tr("estimating the scale: %1 %").arg(percent)
+                   : progress.finishing      ? tr("finishing the tracks: %1 %").arg(percent)
+                                             : tr("run: %1 %").arg(percent);
     if (!progress.estimating_scale && progress.frames_per_second > 0)
         text += tr("   %1 fps   %2")
                     .arg(QLocale().toString(progress.frames_per_second, 'f', 1), leftText(progress.seconds_left));
