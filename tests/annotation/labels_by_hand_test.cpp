@@ -4,9 +4,9 @@
 #include <functional>
 #include <opencv2/core.hpp>
 
-#include "imaging/following/box_patch.h"
 #include "annotation/review/attention.h"
 #include "annotation/review/join_suggestions.h"
+#include "imaging/following/box_patch.h"
 
 /// What deserves a look and what may be one vehicle, each limit from both sides; and what of a picture a patch is.
 namespace eyrie::labels_by_hand_test {

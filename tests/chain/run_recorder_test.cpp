@@ -97,11 +97,14 @@ TEST(RunRecorder, aStopWhilePicturesAreReadOnceMoreLeavesAStoppedRun) {
     scene.frames = 60;
     CountedSource source(scene);
     const SceneScale scale = sceneScale(source.info(), 0.2);
-    RunRecorder recorder(folder / "p.eyrie", plannedRun(source.info(), scale, {}, "default"), ChainOptions{});
-    const RunSummary summary = ChainRun(ChainOptions{}, scale).run(source, {}, recorder, {});
-    std::stop_source stop;
-    stop.request_stop();
-    const RunRecord run = recorder.finish(summary, &source, stop.get_token());
+    RunRecord run;
+    {
+        RunRecorder recorder(folder / "p.eyrie", plannedRun(source.info(), scale, {}, "default"), ChainOptions{});
+        const RunSummary summary = ChainRun(ChainOptions{}, scale).run(source, {}, recorder, {});
+        std::stop_source stop;
+        stop.request_stop();
+        run = recorder.finish(summary, &source, stop.get_token());
+    }
     EXPECT_EQ(run.state, RunState::stopped);
     EXPECT_EQ(run.frames_done, 60);
     EXPECT_EQ(run.message, "stopped while its tracks were finished");

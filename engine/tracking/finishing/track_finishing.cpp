@@ -8,7 +8,7 @@
 #include "tracking/finishing/frames_of.h"
 #include "tracking/finishing/track_paths.h"
 #include "tracking/ground_motion.h"
-#include "tracking/picture_finishing.h"
+#include "tracking/pictures/picture_finishing.h"
 
 namespace eyrie {
 namespace {

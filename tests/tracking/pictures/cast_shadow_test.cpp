@@ -1,5 +1,5 @@
 // Which way shadows fall, from what looks at vehicles say, and what of them is taken out of boxes.
-#include "tracking/shadows/cast_shadow.h"
+#include "tracking/pictures/cast_shadow.h"
 
 #include <gtest/gtest.h>
 

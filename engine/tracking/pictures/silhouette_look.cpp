@@ -1,4 +1,4 @@
-#include "tracking/shadows/silhouette_look.h"
+#include "tracking/pictures/silhouette_look.h"
 
 #include <algorithm>
 #include <cmath>

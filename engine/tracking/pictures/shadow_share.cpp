@@ -1,4 +1,4 @@
-#include "tracking/shadows/shadow_share.h"
+#include "tracking/pictures/shadow_share.h"
 
 #include <algorithm>
 #include <cmath>

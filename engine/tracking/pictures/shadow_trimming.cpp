@@ -3,8 +3,8 @@
 #include <map>
 
 #include "core/robust_statistics.h"
-#include "tracking/shadows/cast_shadow.h"
-#include "tracking/shadows/shadow_share.h"
+#include "tracking/pictures/cast_shadow.h"
+#include "tracking/pictures/shadow_share.h"
 
 namespace eyrie {
 namespace {

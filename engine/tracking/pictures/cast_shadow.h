@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "core/values/scene_scale.h"
-#include "tracking/shadows/ground_turns.h"
-#include "tracking/shadows/silhouette_search.h"
+#include "tracking/pictures/ground_turns.h"
+#include "tracking/pictures/silhouette_search.h"
 
 namespace eyrie {
 

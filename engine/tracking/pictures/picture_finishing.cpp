@@ -1,4 +1,4 @@
-#include "tracking/picture_finishing.h"
+#include "tracking/pictures/picture_finishing.h"
 
 #include <algorithm>
 #include <set>
@@ -6,7 +6,7 @@
 
 #include "tracking/finishing/frames_of.h"
 #include "tracking/finishing/track_paths.h"
-#include "tracking/shadows/cast_shadow.h"
+#include "tracking/pictures/cast_shadow.h"
 
 namespace eyrie {
 namespace {

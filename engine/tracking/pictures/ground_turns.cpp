@@ -1,4 +1,4 @@
-#include "tracking/shadows/ground_turns.h"
+#include "tracking/pictures/ground_turns.h"
 
 #include "core/geometry/homography_jacobian.h"
 

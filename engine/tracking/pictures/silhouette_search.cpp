@@ -1,4 +1,4 @@
-#include "tracking/shadows/silhouette_search.h"
+#include "tracking/pictures/silhouette_search.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // What a silhouette tells of a vehicle and its shadow, on a patch that is known to the pixel.
-#include "tracking/shadows/silhouette_look.h"
+#include "tracking/pictures/silhouette_look.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "tracking/shadows/silhouette_search.h"
+#include "tracking/pictures/silhouette_search.h"
 
 namespace eyrie {
 
