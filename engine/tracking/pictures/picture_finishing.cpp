@@ -1,6 +1,7 @@
 #include "tracking/pictures/picture_finishing.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <vector>
 
@@ -11,31 +12,37 @@
 namespace eyrie {
 namespace {
 
-/// Which track went into which; the latest first.
-using JoinedTracks = std::vector<std::pair<TrackId, TrackId>>;
+/// By each track that another took up: which one did. That one may have been taken up, too.
+using TakenUp = std::map<TrackId, TrackId>;
+
+TrackId ownerOf(const TakenUp& taken_up, TrackId track) {
+    for (auto owner = taken_up.find(track); owner != taken_up.end(); owner = taken_up.find(track))
+        track = owner->second;
+    return track;
+}
 
 /// Follows tracks on where they end, and joins those that meet: they keep the better score, and what speaks for it.
-JoinedTracks followOn(FinishedTracks& finished, const GroundMotion& ground, const FinishingOptions& options,
-                      const SceneScale& scale, const GrayOfFrame& gray_at) {
+TakenUp followOn(FinishedTracks& finished, const GroundMotion& ground, const FinishingOptions& options,
+                 const SceneScale& scale, const GrayOfFrame& gray_at) {
     std::vector<TrackPath>& paths = finished.paths;
     const FollowedEnds followed = followEnds(paths, ground, gray_at, framesOf(options.follow_ends_s, scale), scale);
-    JoinedTracks joined = joinMeeting(paths, followed, ground, options, scale);
-    std::set<TrackId> grown;
-    for (const auto& [older, later] : joined) {
+    TakenUp taken_up;
+    for (const auto& [older, later] : joinMeeting(paths, followed, ground, options, scale)) {
         const TrackEvidence of_later = finished.evidence[later];
         TrackEvidence& evidence = finished.evidence[older];
         if (of_later.score > evidence.score) evidence = of_later;
         finished.evidence.erase(later);
-        grown.insert(older);
-        for (DroppedPath& path : finished.dropped) {
-            if (path.beside == later) path.beside = older;
-        }
+        taken_up[later] = older;
     }
+    if (taken_up.empty()) return taken_up;
+    std::set<TrackId> grown;
+    for (const auto& [later, older] : taken_up) grown.insert(ownerOf(taken_up, older));
+    for (DroppedPath& path : finished.dropped) path.beside = ownerOf(taken_up, path.beside);
     for (TrackPath& path : paths) {
         if (!grown.contains(path.id)) continue;
         for (auto& [frame, state] : path.states) state.score = static_cast<float>(finished.evidence[path.id].score);
     }
-    return joined;
+    return taken_up;
 }
 
 GroundTurns turnsOf(const std::vector<TrackPath>& paths, const GroundMotion& ground) {
@@ -60,18 +67,14 @@ void finishByPictures(FinishedTracks& finished, const GroundMotion& ground, cons
     }
     SilhouetteSearch search(paths, ground, scale);
     // Both go through the run together, so that a picture is decoded once.
-    const JoinedTracks joined = followOn(finished, ground, options, scale, [&](FrameIndex frame) {
+    const TakenUp taken_up = followOn(finished, ground, options, scale, [&](FrameIndex frame) {
         search.readUpTo(frame, gray_at);
         cv::Mat gray = gray_at(frame);
         search.show(frame, gray);
         return gray;
     });
     std::vector<SilhouetteLook> looks = search.finish(gray_at);
-    for (const auto& [older, later] : joined) {
-        for (SilhouetteLook& look : looks) {
-            if (look.track == later) look.track = older;
-        }
-    }
+    for (SilhouetteLook& look : looks) look.track = ownerOf(taken_up, look.track);
     const GroundTurns turns = turnsOf(paths, ground);
     takeOutShadows(paths, looks, castShadows(looks, turns, scale), turns, scale);
 }
