@@ -88,7 +88,9 @@ TEST(RunRecorder, picturesAreReadOnceMoreWhereTheRunIsWhole) {
     EXPECT_GT(whole.reads, 0);
     EXPECT_LE(whole.reads, 60);
     EXPECT_EQ(finishedWith(folder / "stopped.eyrie", 50, false).reads, 0) << "whoever stops does not wait";
-    EXPECT_EQ(finishedWith(folder / "gone.eyrie", 1000, true).record.state, RunState::finished);
+    const RunRecord gone = finishedWith(folder / "gone.eyrie", 1000, true).record;
+    EXPECT_EQ(gone.state, RunState::finished);
+    EXPECT_NE(gone.message.find("pictures could not be read again"), std::string::npos) << gone.message;
 }
 
 TEST(RunRecorder, aStopWhilePicturesAreReadOnceMoreLeavesAStoppedRun) {

@@ -43,13 +43,17 @@ class PicturesOnceMore {
     cv::Mat operator()(FrameIndex frame) {
         stopped_ = stopped_ || stop_.stop_requested();
         if (stopped_) return {};
+        if (!begun_) begun_ = last_told_ = Clock::now();
         tell(frame);
         try {
             return source_.read(frame, false).gray;
-        } catch (const Error&) {
+        } catch (const std::exception&) {
+            ++lost_;
             return {};
         }
     }
+    /// Pictures that could not be read any more.
+    int lost() const { return lost_; }
     /// Whether a picture was refused: then what finishing did with them is incomplete.
     bool stopped() const { return stopped_; }
 
@@ -58,13 +62,12 @@ class PicturesOnceMore {
 
     void tell(FrameIndex frame) {
         const Clock::time_point now = Clock::now();
-        if (told_ == nullptr || now - last_told_ < kTellEvery) return;
+        if (told_ == nullptr || frame <= first_ || now - last_told_ < kTellEvery) return;
         last_told_ = now;
         progress_.frames_done = frame - first_;
-        const std::chrono::duration<double> passed = now - begin_;
-        progress_.frames_per_second = progress_.frames_done / std::max(passed.count(), 1e-6);
-        const int left = progress_.frames_total - progress_.frames_done;
-        progress_.seconds_left = left / std::max(progress_.frames_per_second, 1e-6);
+        const std::chrono::duration<double> passed = now - *begun_;
+        progress_.frames_per_second = progress_.frames_done / passed.count();
+        progress_.seconds_left = (progress_.frames_total - progress_.frames_done) / progress_.frames_per_second;
         told_->onProgress(progress_);
     }
 
@@ -74,8 +77,9 @@ class PicturesOnceMore {
     std::stop_token stop_;
     bool stopped_ = false;
     RunProgress progress_;
-    Clock::time_point begin_ = Clock::now();
-    Clock::time_point last_told_ = begin_;
+    int lost_ = 0;
+    std::optional<Clock::time_point> begun_;  ///< with the first picture
+    Clock::time_point last_told_{};
 };
 
 }  // namespace
@@ -152,6 +156,8 @@ RunRecord RunRecorder::finish(const RunSummary& summary, FrameSource* source, st
         message = "stopped while its tracks were finished";
         writer_.finish(state, message);
     }
+    if (pictures && pictures->lost() > 0 && message.empty())
+        message = std::to_string(pictures->lost()) + " pictures could not be read again to finish the tracks";
     RunStateStore(project).keepTracks(writer_.runId());
     TracksOfRun tracks;
     tracks.states = [&](const StateVisitor& visitor) { finished.visit(visitor); };

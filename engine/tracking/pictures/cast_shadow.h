@@ -17,7 +17,7 @@ struct CastShadow {
 };
 
 /// Finds them from vehicles whose shadow is sure, since the vehicle itself is not in its own shade. One for each
-/// stretch in which enough vehicles agree; nothing at night and under clouds.
+/// stretch in which enough vehicles agree, in ascending order; nothing at night and under clouds.
 std::vector<CastShadow> castShadows(const std::vector<SilhouetteLook>& looks, const GroundTurns& turns,
                                     const SceneScale& scale);
 

@@ -167,7 +167,7 @@ class EndFollowing {
 
     FollowedEnds run() {
         for (const auto& [frame, tracks] : begins_) {
-            for (FrameIndex each = std::max(0, frame - frames_); each <= frame; ++each) wanted_.insert(each);
+            for (FrameIndex each = std::max(0, frame - frames_); each <= frame; ++each) want(each);
         }
         for (const auto& [frame, tracks] : ends_) wanted_.insert(frame);
         while (!wanted_.empty()) {

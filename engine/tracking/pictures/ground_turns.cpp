@@ -4,12 +4,12 @@
 
 namespace eyrie {
 
-GroundTurns::GroundTurns(const GroundMotion& ground, FrameIndex first, FrameIndex last) : first_(first) {
+GroundTurns::GroundTurns(const GroundMotion& ground, FrameIndex first, FrameIndex last, int longest) : first_(first) {
     turns_.reserve(static_cast<std::size_t>(last - first) + 1);
     turns_.push_back({first, 0, 1});
     for (FrameIndex frame = first + 1; frame <= last; ++frame) {
         const cv::Matx33d* step = ground.step(frame - 1, frame, false);
-        if (step == nullptr) {
+        if (step == nullptr || frame - turns_.back().stretch >= longest) {
             turns_.push_back({frame, 0, 1});
             continue;
         }

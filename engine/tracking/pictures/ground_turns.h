@@ -4,16 +4,19 @@
 #include <opencv2/core/types.hpp>
 #include <vector>
 
+#include "core/values/last_frame.h"
 #include "tracking/ground_motion.h"
 
 namespace eyrie {
 
 /// How the ground is turned and enlarged in each picture against the first one of its stretch: the frames that are
-/// registered to each other without a gap. What lies on the ground in one direction, as shadows do, is carried so.
+/// registered to each other without a gap, a limited time. What lies on the ground in one direction, as shadows do, is
+/// carried so.
 class GroundTurns {
  public:
-    /// Of the frames `first` … `last`, measured in the middle of the pictures.
-    GroundTurns(const GroundMotion& ground, FrameIndex first, FrameIndex last);
+    /// Of the frames `first` … `last`, measured in the middle of the pictures. `longest`: frames of a stretch; errors
+    /// add up, and the sun goes on.
+    GroundTurns(const GroundMotion& ground, FrameIndex first, FrameIndex last, int longest = kLastFrame);
 
     struct Turn {
         FrameIndex stretch = 0;  ///< the first frame of its stretch

@@ -12,6 +12,8 @@
 namespace eyrie {
 namespace {
 
+constexpr double kLongestStretch = 300;  ///< s in which shadows fall one way
+
 /// By each track that another took up: which one did. That one may have been taken up, too.
 using TakenUp = std::map<TrackId, TrackId>;
 
@@ -45,14 +47,14 @@ TakenUp followOn(FinishedTracks& finished, const GroundMotion& ground, const Fin
     return taken_up;
 }
 
-GroundTurns turnsOf(const std::vector<TrackPath>& paths, const GroundMotion& ground) {
+GroundTurns turnsOf(const std::vector<TrackPath>& paths, const GroundMotion& ground, const SceneScale& scale) {
     FrameIndex first = paths.front().firstFrame();
     FrameIndex last = first;
     for (const TrackPath& path : paths) {
         first = std::min(first, path.firstFrame());
         last = std::max(last, path.lastFrame());
     }
-    return GroundTurns(ground, first, last);
+    return GroundTurns(ground, first, last, std::max(1, framesOf(kLongestStretch, scale)));
 }
 
 }  // namespace
@@ -61,7 +63,7 @@ void finishByPictures(FinishedTracks& finished, const GroundMotion& ground, cons
                       const SceneScale& scale, const GrayOfFrame& gray_at) {
     std::vector<TrackPath>& paths = finished.paths;
     if (!gray_at || paths.empty()) return;
-    if (!options.trim_shadows) {
+    if (!options.trim_shadows || !hasMetricLimits(scale)) {
         followOn(finished, ground, options, scale, gray_at);
         return;
     }
@@ -75,7 +77,7 @@ void finishByPictures(FinishedTracks& finished, const GroundMotion& ground, cons
     });
     std::vector<SilhouetteLook> looks = search.finish(gray_at);
     for (SilhouetteLook& look : looks) look.track = ownerOf(taken_up, look.track);
-    const GroundTurns turns = turnsOf(paths, ground);
+    const GroundTurns turns = turnsOf(paths, ground, scale);
     takeOutShadows(paths, looks, castShadows(looks, turns, scale), turns, scale);
 }
 

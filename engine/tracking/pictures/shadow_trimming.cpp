@@ -23,9 +23,10 @@ double usualShare(const std::vector<double>& shares) {
 }
 
 const CastShadow* shadowIn(const std::vector<CastShadow>& shadows, FrameIndex stretch) {
-    const auto found = std::find_if(shadows.begin(), shadows.end(),
-                                    [&](const CastShadow& shadow) { return shadow.stretch == stretch; });
-    return found != shadows.end() ? &*found : nullptr;
+    const auto found =
+        std::lower_bound(shadows.begin(), shadows.end(), stretch,
+                         [](const CastShadow& shadow, FrameIndex wanted) { return shadow.stretch < wanted; });
+    return found != shadows.end() && found->stretch == stretch ? &*found : nullptr;
 }
 
 /// A box without what lies at one end of each axis.

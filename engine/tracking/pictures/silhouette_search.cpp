@@ -134,7 +134,8 @@ void SilhouetteSearch::take(Planned& planned, FrameIndex frame, const cv::Mat& g
         }
     }
     planned.vehicle.release();
-    planned.seen.clear();
+    planned.seen = {};
+    planned.grounds = {};
 }
 
 void SilhouetteSearch::readUpTo(FrameIndex frame, const GrayOfFrame& gray_at) {
