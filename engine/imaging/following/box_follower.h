@@ -53,7 +53,6 @@ class BoxFollower {
     Step advance(const cv::Mat& current, const cv::Mat& next, const Homography& map);
     /// How it moves against the ground, px per step in the picture reached last: over the last ten steps or so.
     cv::Point2d usualVelocity() const { return usual_velocity_; }
-    cv::Point2d velocity() const { return velocity_; }
 
  private:
     /// How much a box looks like it did.

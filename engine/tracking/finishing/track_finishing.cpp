@@ -124,8 +124,8 @@ void FinishingOptions::describe(ParameterVisitor& v) {
     declare.real("finishing.follow_ends", follow_ends_s, 0, 60,
                  {"s",
                   "A track that is surely a vehicle and that begins or ends in mid-picture is followed on in the "
-                  "pictures, while "
-                  "they surely show it, by at most this long. 0: never.",
+                  "pictures, while they surely show it, by at most this long. Needs a method with a classifier. 0: "
+                  "never.",
                   ""});
     declare.real(
         "finishing.min_length", min_length_m, 0, 100,

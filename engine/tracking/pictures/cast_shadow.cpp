@@ -27,10 +27,6 @@ struct ShadowSide {
     double weight = 1;  ///< every vehicle counts once
 };
 
-double dot(cv::Point2d a, cv::Point2d b) {
-    return a.x * b.x + a.y * b.y;
-}
-
 /// Weighted least squares, outliers counting less from round to round.
 cv::Point2d fittedReach(const std::vector<ShadowSide>& sides) {
     cv::Point2d reach(0, 0);
@@ -50,7 +46,7 @@ cv::Point2d fittedReach(const std::vector<ShadowSide>& sides) {
         const cv::Vec2d solved = normal.inv() * right;
         reach = {solved[0], solved[1]};
         std::vector<double> off;
-        for (const ShadowSide& side : sides) off.push_back(std::abs(side.reach - dot(side.axis, reach)));
+        for (const ShadowSide& side : sides) off.push_back(std::abs(side.reach - side.axis.dot(reach)));
         const double scatter = 1.5 * medianOf(off) + kLeastScatter;
         for (std::size_t i = 0; i < sides.size(); ++i)
             weights[i] = sides[i].weight / (1 + off[i] * off[i] / (scatter * scatter));
@@ -63,7 +59,7 @@ double agreementOf(const std::vector<ShadowSide>& sides, cv::Point2d reach) {
     double shows = 0;
     double agrees = 0;
     for (const ShadowSide& side : sides) {
-        const double expected = dot(side.axis, reach);
+        const double expected = side.axis.dot(reach);
         if (std::abs(expected) <= kMainSide * std::hypot(reach.x, reach.y)) continue;
         shows += side.weight;
         if (side.reach * expected > 0 && std::abs(side.reach) > kSaysSomething) agrees += side.weight;
@@ -71,15 +67,39 @@ double agreementOf(const std::vector<ShadowSide>& sides, cv::Point2d reach) {
     return shows > 0 ? agrees / shows : 0;
 }
 
+using LooksOfStretch = std::vector<const SilhouetteLook*>;
+
+/// What the sure looks of a stretch say, and of how many tracks they are.
+std::pair<std::vector<ShadowSide>, int> sidesOf(const LooksOfStretch& looks, const GroundTurns& turns,
+                                                const SceneScale& scale) {
+    std::map<TrackId, int> looks_of;
+    for (const SilhouetteLook* look : looks) {
+        if (look->silhouette.lit_vehicle) ++looks_of[look->track];
+    }
+    std::vector<ShadowSide> sides;
+    for (const SilhouetteLook* look : looks) {
+        if (!look->silhouette.lit_vehicle) continue;
+        const GroundTurns::Turn& turn = turns.at(look->frame);
+        const double metre = scale.at(look->box.centre).px(1) * turn.enlargement;
+        const BoxEdges& whole = look->silhouette.whole;
+        const BoxEdges& lit = *look->silhouette.lit;
+        const double heading = look->box.heading - turn.angle;
+        const cv::Point2d along(std::cos(heading), std::sin(heading));
+        const double weight = 1.0 / looks_of[look->track];
+        sides.push_back({along, (whole.front - lit.front + whole.rear - lit.rear) / metre, weight});
+        sides.push_back({{-along.y, along.x}, (whole.right - lit.right + whole.left - lit.left) / metre, weight});
+    }
+    return {sides, static_cast<int>(looks_of.size())};
+}
+
 /// Whether boxes usually hold all of it: then it is the vehicles' own shaded side, which an oblique view shows. Boxes
 /// rarely hold a whole shadow.
-bool isShadedSide(const CastShadow& shadow, const std::vector<SilhouetteLook>& looks, const GroundTurns& turns,
+bool isShadedSide(const CastShadow& shadow, const LooksOfStretch& looks, const GroundTurns& turns,
                   const SceneScale& scale) {
     std::vector<double> shares;
-    for (const SilhouetteLook& look : looks) {
-        const GroundTurns::Turn& turn = turns.at(look.frame);
-        if (turn.stretch != shadow.stretch) continue;
-        const ShadowShare share = shareInBox(look, reachAt(shadow, turn, look.box.centre, scale), kMainSide);
+    for (const SilhouetteLook* look : looks) {
+        const cv::Point2d reach = reachAt(shadow, turns.at(look->frame), look->box.centre, scale);
+        const ShadowShare share = shareInBox(*look, reach, kMainSide);
         if (share.along) shares.push_back(*share.along);
         if (share.across) shares.push_back(*share.across);
     }
@@ -90,38 +110,20 @@ bool isShadedSide(const CastShadow& shadow, const std::vector<SilhouetteLook>& l
 
 std::vector<CastShadow> castShadows(const std::vector<SilhouetteLook>& looks, const GroundTurns& turns,
                                     const SceneScale& scale) {
-    std::map<std::pair<FrameIndex, TrackId>, int> looks_of;  // sure ones, by stretch and track
-    for (const SilhouetteLook& look : looks) {
-        if (look.silhouette.lit_vehicle) ++looks_of[{turns.at(look.frame).stretch, look.track}];
-    }
-    std::map<FrameIndex, std::vector<ShadowSide>> sides_of;
-    std::map<FrameIndex, int> tracks_of;
-    for (const auto& [key, count] : looks_of) ++tracks_of[key.first];
-    for (const SilhouetteLook& look : looks) {
-        if (!look.silhouette.lit_vehicle) continue;
-        const GroundTurns::Turn& turn = turns.at(look.frame);
-        const double metre = scale.at(look.box.centre).px(1) * turn.enlargement;
-        const BoxEdges& whole = look.silhouette.whole;
-        const BoxEdges& lit = *look.silhouette.lit;
-        const double heading = look.box.heading - turn.angle;
-        const cv::Point2d along(std::cos(heading), std::sin(heading));
-        const double weight = 1.0 / looks_of[{turn.stretch, look.track}];
-        std::vector<ShadowSide>& sides = sides_of[turn.stretch];
-        sides.push_back({along, (whole.front - lit.front + whole.rear - lit.rear) / metre, weight});
-        sides.push_back({{-along.y, along.x}, (whole.right - lit.right + whole.left - lit.left) / metre, weight});
-    }
+    std::map<FrameIndex, LooksOfStretch> by_stretch;
+    for (const SilhouetteLook& look : looks) by_stretch[turns.at(look.frame).stretch].push_back(&look);
     std::vector<CastShadow> shadows;
-    for (const auto& [stretch, sides] : sides_of) {
-        CastShadow shadow{stretch, {0, 0}, tracks_of[stretch], 0};
-        if (shadow.tracks < kFewestTracks) continue;
-        shadow.reach_m = fittedReach(sides);
-        shadow.agreement = agreementOf(sides, shadow.reach_m);
-        const double reach = std::hypot(shadow.reach_m.x, shadow.reach_m.y);
+    for (const auto& [stretch, of_stretch] : by_stretch) {
+        const auto [sides, tracks] = sidesOf(of_stretch, turns, scale);
+        if (tracks < kFewestTracks) continue;
+        const cv::Point2d fitted = fittedReach(sides);
+        const CastShadow shadow{stretch, fitted, tracks, agreementOf(sides, fitted)};
+        const double reach = std::hypot(fitted.x, fitted.y);
         std::vector<double> off;
-        for (const ShadowSide& side : sides) off.push_back(std::abs(side.reach - dot(side.axis, shadow.reach_m)));
+        for (const ShadowSide& side : sides) off.push_back(std::abs(side.reach - side.axis.dot(fitted)));
         if (reach < kShortestShadow || shadow.agreement < kLeastAgreement || medianOf(off) > kLargestResidual * reach)
             continue;
-        if (!isShadedSide(shadow, looks, turns, scale)) shadows.push_back(shadow);
+        if (!isShadedSide(shadow, of_stretch, turns, scale)) shadows.push_back(shadow);
     }
     return shadows;
 }

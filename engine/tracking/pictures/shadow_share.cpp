@@ -15,13 +15,8 @@ double shareAlong(double reach, double half, double low, double high, double lit
 
 }  // namespace
 
-cv::Point2d inAxesOf(const OrientedBox& box, cv::Point2d reach) {
-    const cv::Point2d along = box.direction();
-    return {along.x * reach.x + along.y * reach.y, -along.y * reach.x + along.x * reach.y};
-}
-
 ShadowShare shareInBox(const SilhouetteLook& look, cv::Point2d reach, double least) {
-    const cv::Point2d in_box = inAxesOf(look.box, reach);
+    const cv::Point2d in_box = look.box.toBox(look.box.centre + reach);
     const double enough = least * std::hypot(reach.x, reach.y);
     const BoxEdges& whole = look.silhouette.whole;
     const BoxEdges lit = look.silhouette.lit.value_or(BoxEdges{});

@@ -17,7 +17,4 @@ struct ShadowShare {
 /// along an axis.
 ShadowShare shareInBox(const SilhouetteLook& look, cv::Point2d reach, double least);
 
-/// A reach in the axes of a box.
-cv::Point2d inAxesOf(const OrientedBox& box, cv::Point2d reach);
-
 }  // namespace eyrie

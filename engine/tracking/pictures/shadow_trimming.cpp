@@ -59,7 +59,7 @@ void takeOutShadows(std::vector<TrackPath>& paths, const std::vector<SilhouetteL
             const CastShadow* shadow = shadowIn(shadows, turn.stretch);
             if (shadow == nullptr) continue;
             const OrientedBox box = state.box;
-            const cv::Point2d reach = inAxesOf(box, reachAt(*shadow, turn, box.centre, scale));
+            const cv::Point2d reach = box.toBox(box.centre + reachAt(*shadow, turn, box.centre, scale));
             state.box = withoutEnds(box, {along * reach.x, across * reach.y});
         }
     }

@@ -7,7 +7,7 @@
 
 #include "tracking/finishing/track_finishing.h"
 #include "tracking/ground_motion.h"
-#include "tracking/pictures/silhouette_look.h"
+#include "tracking/pictures/silhouette_grid.h"
 
 namespace eyrie {
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "tracking/finishing/track_finishing.h"
+#include "tracking/frame_summaries.h"
 
 namespace eyrie::end_following_test {
 namespace {
@@ -34,12 +35,8 @@ struct LateCar {
 
     LateCar() {
         for (FrameIndex frame = 0; frame < kFrames; ++frame) {
-            FrameMotionSummary summary;
-            summary.frame = frame;
-            summary.image_size = {640, 200};
-            summary.registration.state = frame == 0 ? RegistrationState::first : RegistrationState::registered;
-            summary.registration.current_from_previous.matrix(0, 2) = frame == 0 ? 0 : 3;
-            motion.push_back(summary);
+            motion.push_back(test::summaryOfFrame(frame, 3));
+            motion.back().image_size = {640, 200};
             if (frame >= kFound && frame <= kLost) add(1, frame, boxAt(frame));
         }
     }

@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "tracking/finishing/track_finishing.h"
+#include "tracking/frame_summaries.h"
 
 namespace eyrie::trimmed_boxes_test {
 namespace {
@@ -55,12 +56,8 @@ struct SunnyRoad {
         std::vector<FrameMotionSummary> motion;
         std::vector<TimedState> states;
         for (FrameIndex frame = 0; frame < kFrames; ++frame) {
-            FrameMotionSummary summary;
-            summary.frame = frame;
-            summary.image_size = {640, 280};
-            summary.registration.state = frame == 0 ? RegistrationState::first : RegistrationState::registered;
-            summary.registration.current_from_previous.matrix(0, 2) = frame == 0 ? 0 : 1;
-            motion.push_back(summary);
+            motion.push_back(test::summaryOfFrame(frame, 1));
+            motion.back().image_size = {640, 280};
             for (int lane = 0; lane < 6; ++lane) {
                 TrackState state;
                 state.id = lane + 1;

@@ -1,4 +1,4 @@
-#include "tracking/pictures/silhouette_look.h"
+#include "tracking/pictures/silhouette_grid.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
 // What a silhouette tells of a vehicle and its shadow, on a patch that is known to the pixel.
-#include "tracking/pictures/silhouette_look.h"
+#include "tracking/pictures/silhouette_grid.h"
 
 #include <gtest/gtest.h>
 
 #include <opencv2/imgproc.hpp>
 
-namespace eyrie::silhouette_look_test {
+namespace eyrie::silhouette_grid_test {
 namespace {
 
 const OrientedBox kBox{{60, 40}, 24, 12, 0};
@@ -40,7 +40,7 @@ std::optional<Silhouette> seen(const cv::Mat& vehicle, const std::vector<cv::Mat
 
 }  // namespace
 
-TEST(SilhouetteLook, TellsABrightVehicleFromItsShadow) {
+TEST(SilhouetteGrid, TellsABrightVehicleFromItsShadow) {
     const auto silhouette = seen(withCar(bareGround(), 230), {bareGround()});
     ASSERT_TRUE(silhouette && silhouette->lit);
     EXPECT_NEAR(silhouette->whole.rear, -12, 1.01);
@@ -54,14 +54,14 @@ TEST(SilhouetteLook, TellsABrightVehicleFromItsShadow) {
     EXPECT_TRUE(silhouette->lit_vehicle);
 }
 
-TEST(SilhouetteLook, DoesNotTellADarkVehicleFromItsShadow) {
+TEST(SilhouetteGrid, DoesNotTellADarkVehicleFromItsShadow) {
     const auto silhouette = seen(withCar(bareGround(), 80), {bareGround()});
     ASSERT_TRUE(silhouette);
     EXPECT_NEAR(silhouette->whole.front, 16, 1.01);
     EXPECT_FALSE(silhouette->lit_vehicle);
 }
 
-TEST(SilhouetteLook, DoesNotTakeARoofForTheVehicle) {
+TEST(SilhouetteGrid, DoesNotTakeARoofForTheVehicle) {
     cv::Mat picture = withCar(bareGround(), 80);
     picture(cv::Rect(56, 37, 6, 6)).setTo(230);
     const auto silhouette = seen(picture, {bareGround()});
@@ -69,7 +69,7 @@ TEST(SilhouetteLook, DoesNotTakeARoofForTheVehicle) {
     EXPECT_FALSE(silhouette->lit_vehicle);
 }
 
-TEST(SilhouetteLook, WantsAllGroundsToDiffer) {
+TEST(SilhouetteGrid, WantsAllGroundsToDiffer) {
     // What stood there in one picture and not in the other is on the ground of one of them.
     cv::Mat parked = bareGround();
     parked(cv::Rect(43, 30, 8, 20)).setTo(60);
@@ -81,7 +81,7 @@ TEST(SilhouetteLook, WantsAllGroundsToDiffer) {
     EXPECT_NEAR(both->whole.rear, -12, 1.01);
 }
 
-TEST(SilhouetteLook, SaysNothingAtNightAndWhereItIsOneWithOtherThings) {
+TEST(SilhouetteGrid, SaysNothingAtNightAndWhereItIsOneWithOtherThings) {
     EXPECT_TRUE(seen(withCar(bareGround(70), 230), {bareGround(70)}));
     EXPECT_FALSE(seen(withCar(bareGround(50), 230), {bareGround(50)}));
     cv::Mat merged = withCar(bareGround(), 230);
@@ -90,13 +90,13 @@ TEST(SilhouetteLook, SaysNothingAtNightAndWhereItIsOneWithOtherThings) {
     EXPECT_FALSE(seen(bareGround(), {bareGround()}));
 }
 
-TEST(SilhouetteLook, SamplesNothingBeyondThePicture) {
+TEST(SilhouetteGrid, SamplesNothingBeyondThePicture) {
     EXPECT_FALSE(kGrid.sampled(bareGround()).empty());
     EXPECT_TRUE(SilhouetteGrid({{10, 40}, 24, 12, 0}, 10, 1).sampled(bareGround()).empty());
     EXPECT_TRUE(kGrid.sampled(bareGround(), {1, 0, 60, 0, 1, 0, 0, 0, 1}).empty());
 }
 
-TEST(SilhouetteLook, TurnsWithTheBox) {
+TEST(SilhouetteGrid, TurnsWithTheBox) {
     // The same car from behind: what lay beyond its front lies beyond its rear, and left is right.
     const SilhouetteGrid turned({kBox.centre, 24, 12, CV_PI}, 10, 1);
     const auto silhouette = turned.compare(turned.sampled(withCar(bareGround(), 230)), {turned.sampled(bareGround())});
@@ -107,4 +107,4 @@ TEST(SilhouetteLook, TurnsWithTheBox) {
     EXPECT_NEAR(silhouette->whole.right, 6, 1.01);
 }
 
-}  // namespace eyrie::silhouette_look_test
+}  // namespace eyrie::silhouette_grid_test
