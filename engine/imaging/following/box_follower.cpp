@@ -96,7 +96,8 @@ OrientedBox BoxFollower::bestMatch(const cv::Mat& gray, const BoxFlow& flow, con
 OrientedBox BoxFollower::refined(const cv::Mat& gray, const OrientedBox& from, double reach) const {
     OrientedBox best = from;
     double most = penalised(gray, best, from);
-    for (double step = reach; step >= 0.12; step /= 2) {
+    double step = 2 * reach;
+    while ((step /= 2) >= 0.12) {
         bool better = true;
         for (int i = 0; i < 4 && better; ++i) {
             better = false;

@@ -31,6 +31,7 @@ struct ShadowSide {
 cv::Point2d fittedReach(const std::vector<ShadowSide>& sides) {
     cv::Point2d reach(0, 0);
     std::vector<double> weights;
+    weights.reserve(sides.size());
     for (const ShadowSide& side : sides) weights.push_back(side.weight);
     for (int round = 0; round < kFitRounds; ++round) {
         cv::Matx22d normal = cv::Matx22d::zeros();
@@ -46,6 +47,7 @@ cv::Point2d fittedReach(const std::vector<ShadowSide>& sides) {
         const cv::Vec2d solved = normal.inv() * right;
         reach = {solved[0], solved[1]};
         std::vector<double> off;
+        off.reserve(sides.size());
         for (const ShadowSide& side : sides) off.push_back(std::abs(side.reach - side.axis.dot(reach)));
         const double scatter = 1.5 * medianOf(off) + kLeastScatter;
         for (std::size_t i = 0; i < sides.size(); ++i)

@@ -93,6 +93,7 @@ TEST(CastShadow, NeedsFourVehicles) {
 
 TEST(CastShadow, NeedsVehiclesThatAgree) {
     std::vector<SilhouetteLook> looks;
+    looks.reserve(12);
     for (int i = 0; i < 12; ++i) looks.push_back(lookAt(i + 1, 0, 0.3 * i, turned(kReach, 0.52 * i)));
     EXPECT_TRUE(castShadows(looks, turning(0), kScale).empty());
     EXPECT_TRUE(castShadows(crossing(6, {0.1, 0.1}, 0), turning(0), kScale).empty());

@@ -34,6 +34,7 @@ cv::Mat withCar(cv::Mat ground, double paint) {
 
 std::optional<Silhouette> seen(const cv::Mat& vehicle, const std::vector<cv::Mat>& grounds) {
     std::vector<cv::Mat> sampled;
+    sampled.reserve(grounds.size());
     for (const cv::Mat& ground : grounds) sampled.push_back(kGrid.sampled(ground));
     return kGrid.compare(kGrid.sampled(vehicle), sampled);
 }

@@ -70,6 +70,7 @@ struct SunnyRoad {
         FoundInFrames found;
         found.classified_at = [](FrameIndex frame) {
             std::vector<ClassifiedBox> cars;
+            cars.reserve(6);
             for (int lane = 0; lane < 6; ++lane) cars.push_back({boxAt(lane, frame), true, 8});
             return cars;
         };
