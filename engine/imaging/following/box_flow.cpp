@@ -68,8 +68,9 @@ Similarity leastSquares(const std::vector<cv::Point2d>& from, const std::vector<
     return map;
 }
 
-/// Starts from the median shift and drops what does not agree.
-Fit robustFit(const std::vector<cv::Point2d>& from, const std::vector<cv::Point2d>& to, int least_for_turn) {
+/// Starts from the median shift and drops what does not agree to within `near` px or two.
+Fit robustFit(const std::vector<cv::Point2d>& from, const std::vector<cv::Point2d>& to, int least_for_turn,
+              double near = 1) {
     Fit fit;
     if (from.empty()) return fit;
     std::vector<double> x;
@@ -80,7 +81,6 @@ Fit robustFit(const std::vector<cv::Point2d>& from, const std::vector<cv::Point2
     }
     fit.map.shift = {median(x), median(y)};
     constexpr int kRounds = 3;
-    constexpr double kNearPx = 1.0;
     std::vector<char> chosen(from.size());
     for (int round = 0; round < kRounds; ++round) {
         std::vector<double> residuals;
@@ -88,7 +88,7 @@ Fit robustFit(const std::vector<cv::Point2d>& from, const std::vector<cv::Point2
             const cv::Point2d off = fit.map.apply(from[i]) - to[i];
             residuals.push_back(std::hypot(off.x, off.y));
         }
-        const double limit = std::clamp(2.5 * median(residuals), kNearPx / 2, 2 * kNearPx);
+        const double limit = std::clamp(2.5 * median(residuals), near / 2, 2 * near);
         fit.agreeing = 0;
         for (std::size_t i = 0; i < from.size(); ++i) {
             chosen[i] = residuals[i] <= limit;
@@ -184,8 +184,10 @@ BoxFlow flowOf(const cv::Mat& current, const cv::Mat& next, const OrientedBox& b
     }
     constexpr int kLeastForTurn = 5;
     constexpr double kLargestTurn = 0.12;
-    const Fit fit = robustFit(expected, found, kLeastForTurn);
+    constexpr double kNearShare = 0.02;  // of the box's size: what is seen from near by does not move as one plane
+    const Fit fit = robustFit(expected, found, kLeastForTurn, std::max(1.0, kNearShare * std::sqrt(box.area())));
     flow.agreeing = fit.agreeing;
+    flow.growth = std::hypot(fit.map.a, fit.map.b);
     flow.box.centre = fit.map.apply(predicted.centre);
     flow.box.heading =
         wrapPi(predicted.heading + std::clamp(std::atan2(fit.map.b, fit.map.a), -kLargestTurn, kLargestTurn));

@@ -9,9 +9,10 @@ namespace eyrie {
 
 /// How a box moved from one picture to the next, by the corners inside it.
 struct BoxFlow {
-    OrientedBox box;   ///< in the next picture; as predicted where too few corners agree
-    int corners = 0;   ///< tracked there and back
-    int agreeing = 0;  ///< those that move together
+    OrientedBox box;    ///< in the next picture; as predicted where too few corners agree
+    int corners = 0;    ///< tracked there and back
+    int agreeing = 0;   ///< those that move together
+    double growth = 1;  ///< of what they lie on, beyond what is predicted
 };
 
 /// Limits of the corners by which a box is moved from one picture to the next.

@@ -25,6 +25,14 @@ OrientedBox carried(OrientedBox box, cv::Point2d way, const Homography& map) {
     return box;
 }
 
+/// Corners at the edge of what grows agree less at first, so it is followed in part from step to step.
+double growthOf(const BoxFlow& flow, int least_corners) {
+    constexpr double kAgreeingShare = 0.6;
+    constexpr double kLargest = 1.15;
+    if (least_corners < 1 || flow.agreeing < least_corners || flow.agreeing < kAgreeingShare * flow.corners) return 1;
+    return std::clamp(flow.growth, 1 / kLargest, kLargest);
+}
+
 }  // namespace
 
 BoxFollower::BoxFollower(const OrientedBox& box, const cv::Mat& gray, const FollowOptions& options)
@@ -42,14 +50,22 @@ void BoxFollower::startsWith(cv::Point2d velocity) {
 }
 
 BoxFollower::Step BoxFollower::advance(const cv::Mat& current, const cv::Mat& next, const Homography& map) {
-    const OrientedBox predicted = carried(box_, velocity_, map);
+    OrientedBox predicted = carried(box_, velocity_, map);
+    predicted.length *= growth_;
+    predicted.width *= growth_;
     sure_box_ = carried(sure_box_, {0, 0}, map);
     home_ = carried(home_, {0, 0}, map);
     const BoxFlow flow =
         flowOf(current, next, box_, predicted, {options_.max_corners, options_.max_forward_backward_px});
     Step step;
     step.box = bestMatch(next, flow, predicted);
+    const double growth = growthOf(flow, options_.corners_to_grow);
+    step.box.length *= growth;
+    step.box.width *= growth;
+    growth_ = std::sqrt(growth_ * growth_ * growth);
     const Likeness likeness = likenessOf(next, step.box);
+    step.corners = flow.corners;
+    step.agreeing = flow.agreeing;
     const double corners = std::min(1.0, flow.agreeing / 4.0);
     step.certainty = std::clamp(
         0.55 * std::max(0.0, likeness.recent) + 0.25 * std::max(0.0, likeness.start) + 0.2 * corners, 0.0, 1.0);
@@ -135,14 +151,16 @@ cv::Point2d BoxFollower::movementTo(const OrientedBox& box, const Homography& ma
 std::optional<FollowEnd> BoxFollower::judged(const Step& step, const BoxFlow& flow, const Likeness& likeness,
                                              const Homography& map) const {
     constexpr int kKnownSpeedSteps = 2;
+    const double most =
+        std::max(options_.max_speed_change_px, options_.max_speed_change_share * std::sqrt(step.box.area()));
     const cv::Point2d expected = map.applyToVector(box_.centre, velocity_);
-    if (steps_ >= kKnownSpeedSteps && stepLength(movementTo(step.box, map) - expected) > options_.max_speed_change_px) {
+    if (steps_ >= kKnownSpeedSteps && stepLength(movementTo(step.box, map) - expected) > most) {
         return FollowEnd::jump;
     }
     // A vehicle does not stop or set off at once; a box that sticks to the ground does.
     const cv::Point2d usual = map.applyToVector(box_.centre, usual_velocity_);
     const double change = stepLength((movementTo(step.box, map) + expected) * 0.5 - usual);
-    if (steps_ >= kUsualSpeedSteps && change > std::max(options_.max_speed_change_px * 0.35, 0.5 * stepLength(usual))) {
+    if (steps_ >= kUsualSpeedSteps && change > std::max(most * 0.35, 0.5 * stepLength(usual))) {
         return FollowEnd::jump;
     }
     if (likeness.start < options_.min_start_likeness) return FollowEnd::appearance;
@@ -158,7 +176,7 @@ void BoxFollower::accept(const Step& step, const Likeness& likeness, const cv::M
     const cv::Point2d before = map.applyToVector(box_.centre, velocity_);
     velocity_ = steps_ == 0 ? movement : before + (movement - before) * 0.5;
     const cv::Point2d usual = map.applyToVector(box_.centre, usual_velocity_);
-    const double share = std::max(0.12, 1.0 / (steps_ + 1));
+    const double share = std::max(options_.usual_share, 1.0 / (steps_ + 1));
     usual_velocity_ = usual + (movement - usual) * share;
     box_ = step.box;
     ++steps_;

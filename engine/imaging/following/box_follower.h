@@ -27,10 +27,13 @@ struct FollowOptions {
     double min_start_likeness = 0.3;  ///< correlation with how it looked at the start, −1 … 1
     int max_corners = 40;
     double max_forward_backward_px = 0.7;
-    double max_speed_change_px = 4;  ///< px/frame, against the speed of the frames before
-    double max_standing_px = 0.4;    ///< px/frame over the ground: up to that it waits
-    double min_seen = 0.5;           ///< share of what waits that must be seen while others pass in front of it …
-    int max_hidden_frames = 45;      ///< … but for so long, if it is seen again afterwards
+    double max_speed_change_px = 4;     ///< px/frame, against the speed of the frames before …
+    double max_speed_change_share = 0;  ///< … or that share of the box's size (the root of its area) if it is more
+    double usual_share = 0.12;          ///< of each step in its usual motion, which does not change at once
+    int corners_to_grow = 0;            ///< that must agree for the box to grow and shrink with them; 0: it does not
+    double max_standing_px = 0.4;       ///< px/frame over the ground: up to that it waits
+    double min_seen = 0.5;              ///< share of what waits that must be seen while others pass in front of it …
+    int max_hidden_frames = 45;         ///< … but for so long, if it is seen again afterwards
 };
 
 /// Follows one box from picture to picture: by corners inside it (tracked there and back) and by how it looked at the
@@ -45,13 +48,15 @@ class BoxFollower {
     struct Step {
         OrientedBox box;
         double certainty = 0;  ///< 0 … 1
+        int corners = 0;       ///< tracked inside the box
+        int agreeing = 0;      ///< those of them that move together
         std::optional<FollowEnd> end;
         bool hidden = false;  ///< it ends here, unless what waited is seen again
     };
 
     /// Follows from `current` to `next`, whose ground `map` joins.
     Step advance(const cv::Mat& current, const cv::Mat& next, const Homography& map);
-    /// How it moves against the ground, px per step in the picture reached last: over the last ten steps or so.
+    /// How it moves against the ground, px per step in the picture reached last: over the last steps, weighted.
     cv::Point2d usualVelocity() const { return usual_velocity_; }
 
  private:
@@ -82,6 +87,7 @@ class BoxFollower {
     BoxPatch recent_;
     cv::Point2d velocity_{0, 0};        ///< px per step against the ground, in the current picture
     cv::Point2d usual_velocity_{0, 0};  ///< the same over the last ten steps or so
+    double growth_ = 1;                 ///< per step, beyond that of the ground
     int steps_ = 0;
 };
 

@@ -15,24 +15,32 @@ namespace {
 constexpr double kSureTrack = 0.8;          ///< score from which a track is surely a vehicle …
 constexpr int kSurelyDetected = 6;          ///< … and states in which it was detected, at least
 constexpr double kSureLooks = 0.78;         ///< certainty below which the pictures do not surely show it any more
+constexpr double kFairLooks = 0.55;         ///< that will do where many corners agree
+constexpr int kManyCorners = 12;            ///< … which are so many …
+constexpr double kAgreeingShare = 0.6;      ///< … and that share of all in the box
+constexpr double kSurelyMoves = 1.5;        ///< px/frame over the ground
 constexpr double kFollowedInImage = 0.9;    ///< share of the box that must lie in the image
 constexpr double kSlowestFollowed = 1;      ///< m/s at the end it is followed on from; what stands is known otherwise
 constexpr double kHardestBraking = 10;      ///< m/s²; a box that slides off onto the ground brakes harder
 constexpr double kBrakingSeconds = 0.4;     ///< over which that is measured …
 constexpr double kBrakingFewestFrames = 3;  ///< … and frames, at least
+constexpr double kUsualSeconds = 0.28;      ///< in which a vehicle's motion changes little
+constexpr double kBend = 0.5;               ///< cosine of the turn in that time up to which it is a bend
 constexpr double kPlaceError = 1;           ///< px by which both ends of that may be off
-constexpr double kJumpShare = 0.25;         ///< of a vehicle's size by which its speed may change from frame to frame
-constexpr std::size_t kLastStates = 5;      ///< of an end, in which it was seen without a gap
-constexpr int kMostGuessed = 8;             ///< frames of a guessed beginning; longer ones tell where it stood
+constexpr double kJumpShare = 0.25;     ///< of a vehicle's size by which its speed may change in 0.04 s, or in a frame
+constexpr std::size_t kLastStates = 5;  ///< of an end, in which it was seen without a gap
+constexpr int kMostGuessed = 8;         ///< frames of a guessed beginning; longer ones tell where it stood
 constexpr std::size_t kMostHeldBytes = 200'000'000;  ///< of pictures, for those who are followed back
 
 bool wasSeen(const TimedPathState& state) {
     return state.second.origin == StateOrigin::detected || state.second.origin == StateOrigin::reconstructed;
 }
 
-FollowOptions followOptionsFor(const OrientedBox& box) {
+FollowOptions followOptions(double frame_rate_hz) {
     FollowOptions options;
-    options.max_speed_change_px = std::max(options.max_speed_change_px, kJumpShare * std::sqrt(box.area()));
+    options.usual_share = std::clamp(1 / (kUsualSeconds * frame_rate_hz), options.usual_share, 0.5);
+    options.corners_to_grow = kManyCorners;
+    options.max_speed_change_share = kJumpShare * std::clamp(1 / (0.04 * frame_rate_hz), 1.0, 2.0);
     return options;
 }
 
@@ -73,11 +81,10 @@ class EndFollower {
         : way_(way),
           state_(from.second),
           frame_(from.first),
-          start_(from.second.box.centre),
-          follower_(from.second.box, gray, followOptionsFor(from.second.box)) {
+          follower_(from.second.box, gray, followOptions(scale.frame_rate_hz)) {
         const cv::Point2d velocity = cv::Point2d(from.second.velocity) * way;
         follower_.startsWith(velocity);
-        const SceneScale here = scale.at(start_);
+        const SceneScale here = scale.at(from.second.box.centre);
         const double frames = std::max(kBrakingFewestFrames, std::round(kBrakingSeconds * here.frame_rate_hz));
         allowed_change_ = here.pxPerFrame(kHardestBraking) / here.frame_rate_hz * frames + kPlaceError / frames;
         window_ = static_cast<std::size_t>(frames);
@@ -96,8 +103,10 @@ class EndFollower {
         map.matrix = *step;
         if (!ground.frozen(frame_, to)) {
             const BoxFollower::Step moved = follower_.advance(*current, *picture, map);
-            if (moved.end || moved.certainty < kSureLooks) return std::nullopt;
-            if (brakesTooHard(moved.box, map, ground)) return std::nullopt;
+            const bool drives = drivesBySight(moved, map);
+            if (moved.end || moved.certainty < (drives ? kFairLooks : kSureLooks)) return std::nullopt;
+            braked_ = brakesTooHard(moved.box, map) && !drives;
+            if (braked_) return std::nullopt;
             state_.box = moved.box;
             state_.velocity = follower_.usualVelocity() * way_;
         }
@@ -113,14 +122,30 @@ class EndFollower {
     std::size_t doubtful() const { return braked_ ? window_ - 1 : 0; }
 
  private:
+    /// Many corners that move together over the ground are the vehicle's, however its looks and its way change on a
+    /// bend or near by; what has slid off onto the ground moves with it.
+    bool drivesBySight(const BoxFollower::Step& moved, const Homography& map) const {
+        const cv::Point2d before = map.applyToVector(state_.box.centre, follower_.usualVelocity());
+        const cv::Point2d way = moved.box.centre - map.apply(state_.box.centre);
+        return moved.agreeing >= kManyCorners && moved.agreeing >= kAgreeingShare * moved.corners &&
+               std::hypot(way.x, way.y) >= std::max(kSurelyMoves, 0.5 * std::hypot(before.x, before.y));
+    }
     /// A box that lost its vehicle sticks to the ground, or is taken along by another.
-    bool brakesTooHard(const OrientedBox& box, const Homography& map, const GroundMotion& ground) {
-        const double larger = ground.enlargement(start_, box.centre);
-        steps_.push_back((box.centre - map.apply(state_.box.centre)) * (1 / larger));
+    bool brakesTooHard(const OrientedBox& box, const Homography& map) {
+        const cv::Point2d before = state_.box.centre;
+        for (cv::Point2d& step : steps_) step = map.applyToVector(before, step);
+        allowed_change_ *= map.scaleAt(before);
+        steps_.push_back(box.centre - map.apply(before));
         if (steps_.size() > 2 * window_) steps_.pop_front();
-        const cv::Point2d change = meanStep(steps_.size() - window_, steps_.size()) - meanStep(0, window_);
-        braked_ = std::hypot(change.x, change.y) > allowed_change_;
-        return braked_;
+        return changeBetween(meanStep(0, window_), meanStep(steps_.size() - window_, steps_.size())) > allowed_change_;
+    }
+
+    /// On a bend a vehicle keeps its speed.
+    static double changeBetween(cv::Point2d before, cv::Point2d after) {
+        const double speed = std::hypot(before.x, before.y);
+        const double new_speed = std::hypot(after.x, after.y);
+        if (before.dot(after) >= kBend * speed * new_speed) return std::abs(new_speed - speed);
+        return std::hypot(after.x - before.x, after.y - before.y);
     }
 
     cv::Point2d meanStep(std::size_t begin, std::size_t end) const {
@@ -132,9 +157,8 @@ class EndFollower {
     int way_;
     PathState state_;
     FrameIndex frame_;
-    cv::Point2d start_;
     BoxFollower follower_;
-    std::deque<cv::Point2d> steps_;  ///< px over the ground where it started, of twice the window at most
+    std::deque<cv::Point2d> steps_;  ///< px over the ground in the picture reached, of twice the window at most
     std::size_t window_ = 0;         ///< frames
     double allowed_change_ = 0;      ///< px/frame
     bool braked_ = false;
