@@ -63,6 +63,11 @@ std::string nowUtc() {
     return utcTextOfSeconds(floor<seconds>(system_clock::now()).time_since_epoch().count());
 }
 
+std::int64_t nowUtcMicroseconds() {
+    using namespace std::chrono;
+    return floor<microseconds>(system_clock::now()).time_since_epoch().count();
+}
+
 std::string utcTextOfSeconds(std::int64_t seconds) {
     if (seconds < kFirst_us / kSecond_us || seconds >= kEnd_us / kSecond_us) return {};
     return isoText(seconds * kSecond_us, 0);

@@ -11,6 +11,8 @@ namespace eyrie {
 
 /// Now, to the second.
 std::string nowUtc();
+/// The same to the microsecond, since 1970-01-01.
+std::int64_t nowUtcMicroseconds();
 
 /// A moment to the second, from seconds since 1970-01-01. Empty outside the years 0 to 9999, which have no such text.
 std::string utcTextOfSeconds(std::int64_t seconds);

@@ -1,7 +1,6 @@
-#include <fcntl.h>
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -104,6 +103,17 @@ class Batches : public testing::Test {
         const auto runs = runsOf(project);
         return runs.size() == 1 && runs[0].state == RunState::finished && runs[0].frames_done == frames;
     }
+    /// All runs of a project began that far into this second.
+    void beganAt(const std::string& project, const std::string& fraction_us) const {
+        SQLite::Database(at(project), SQLite::OPEN_READWRITE)
+            .exec("UPDATE run SET started_utc = '" + utcTextOfSeconds(kSecond.count()) +
+                  "', started_fraction_us = " + fraction_us);
+    }
+    void changedAt(const std::string& name, int past_second_us) const {
+        fs::last_write_time(folder / name,
+                            fs::file_time_type::clock::from_sys(std::chrono::sys_time<std::chrono::nanoseconds>(
+                                kSecond + std::chrono::microseconds(past_second_us))));
+    }
     /// The names of files that the summary has in a state.
     std::vector<std::string> inState(const std::string& state, const std::string& summary = "out/batch.csv") const {
         std::vector<std::string> names;
@@ -115,6 +125,7 @@ class Batches : public testing::Test {
         return names;
     }
     const test::TemporaryFolder folder;
+    static constexpr std::chrono::seconds kSecond{1'795'000'000};  ///< in which beganAt() and changedAt() are
 };
 
 TEST_F(Batches, everyFileGetsAProjectAndBadOnesAreListed) {
@@ -166,8 +177,6 @@ TEST_F(Batches, aListOfPartsIsOneVideoAndItsPartsAreNone) {
     EXPECT_FALSE(fs::exists(at("out/rec/a.eyrie")));
 
     write("in/rec/whole.parts", "file\nb.mp4\n");
-    // Later than its run began, by whole seconds: what a disk without times of birth can tell, too.
-    fs::last_write_time(folder / "in/rec/whole.parts", fs::file_time_type::clock::now() + std::chrono::seconds(5));
     const auto again = batch();
     EXPECT_THAT(inState("done"), ElementsAre("rec/a.mp4", "rec/whole.parts")) << again.output;
     EXPECT_EQ(runsOf("out/rec/whole.eyrie").back().frames_done, kFrames);
@@ -386,15 +395,27 @@ TEST_F(Batches, aFileWithOtherContentsIsDoneAgain) {
 TEST_F(Batches, aFileThatChangedInTheSecondOfItsRunIsDoneAgain) {
     put("in/a.mp4");
     ASSERT_EQ(batch({"--frames", "0:1"}).exit_code, 0);
-    struct statx facts {};
-    if (statx(AT_FDCWD, at("out/a.eyrie").c_str(), 0, STATX_BTIME, &facts) != 0 || (facts.stx_mask & STATX_BTIME) == 0)
-        GTEST_SKIP() << "this disk does not know when a file was made";
-    const std::chrono::microseconds began(utcOf(runsOf("out/a.eyrie").back().started_utc).value());
-    fs::last_write_time(folder / "in/a.mp4",
-                        fs::file_time_type::clock::from_sys(std::chrono::sys_time<std::chrono::nanoseconds>(
-                            began + std::chrono::nanoseconds(999'999'999))));
-    EXPECT_THAT(batch({"--frames", "0:1"}).output, HasSubstr("1 file: 1 done"));
+    beganAt("out/a.eyrie", "500000");
+    changedAt("in/a.mp4", 400'000);
+    EXPECT_THAT(batch({"--frames", "0:1"}).output, HasSubstr("1 file: 1 done before\n"));
+    changedAt("in/a.mp4", 600'000);
+    EXPECT_THAT(batch({"--frames", "0:1"}).output, HasSubstr("1 file: 1 done\n"));
     EXPECT_EQ(runsOf("out/a.eyrie").size(), 2U);
+}
+
+TEST_F(Batches, aFileThatMayHaveChangedSinceItsRunBeganIsDoneAgain) {
+    put("in/a.mp4");
+    ASSERT_EQ(batch({"--frames", "0:1"}).exit_code, 0);
+    const auto doesAgain = [&](const char* began, int changed_us) {
+        beganAt("out/a.eyrie", began);
+        changedAt("in/a.mp4", changed_us);
+        return batch({"--frames", "0:1"}).output.find("1 file: 1 done\n") != std::string::npos;
+    };
+    EXPECT_FALSE(doesAgain("NULL", -100'000));
+    EXPECT_TRUE(doesAgain("NULL", 100'000)) << "an older version did not keep when in the second its run began";
+    EXPECT_TRUE(doesAgain("500000", 495'000)) << "times of files tick";
+    EXPECT_TRUE(doesAgain("500000", 0)) << "some disks keep whole seconds";
+    EXPECT_FALSE(doesAgain("500000", -3'000'000));
 }
 
 TEST_F(Batches, textThatIsCalledAVideoIsListedWithTheReason) {

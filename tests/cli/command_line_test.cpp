@@ -1,5 +1,7 @@
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <csignal>
 #include <fstream>
@@ -88,6 +90,21 @@ TEST_F(CommandLine, aFrameRateGivenOnceCountsForLaterRuns) {
     std::vector<double> rates;
     for (const RunRecord& run : RunStore(project).runs()) rates.push_back(run.scale.frame_rate_hz);
     EXPECT_THAT(rates, testing::ElementsAre(30, 30, 10, 10));
+}
+
+// Else what changes while a video is looked through for its scale would seem to be older than its run.
+TEST_F(CommandLine, aRunBeginsBeforeItsVideoIsRead) {
+    const std::string picture = clip(30) + "/1000.png";
+    const timespec long_ago_and_as_it_is[] = {{0, 0}, {0, UTIME_OMIT}};  // read, written
+    ASSERT_EQ(utimensat(AT_FDCWD, picture.c_str(), long_ago_and_as_it_is, 0), 0);
+    ASSERT_EQ(cli({"run", at("clip"), "--project", at("p.eyrie"), "--quiet"}).exit_code, 0);
+    struct stat facts {};
+    ASSERT_EQ(stat(picture.c_str(), &facts), 0);
+    if (facts.st_atim.tv_sec == 0) GTEST_SKIP() << "this disk does not keep when a file was read";
+    const std::int64_t read_us = facts.st_atim.tv_sec * 1'000'000 + facts.st_atim.tv_nsec / 1000;
+    constexpr std::int64_t kTick_us = 10'000;  // of the clock for files
+    ProjectFile project = ProjectFile::open(folder / "p.eyrie");
+    EXPECT_LE(RunStore(project).run(1)->started_us.value(), read_us + kTick_us);
 }
 
 TEST_F(CommandLine, aRunThatFollowsNothingSaysWhy) {

@@ -51,6 +51,12 @@ TEST(NaturalOrder, ANameComesBeforeWhatGoesOnInAnyLetter) {
     }
 }
 
+TEST(NaturalOrder, LettersBeyondAsciiComeAfterThoseOfIt) {
+    std::vector<std::string> names = {"\xC3\xA4", "z2", "stra\xC3\x9Fz", "\xE8\xBB\x8A", "strand", "strassz"};
+    std::sort(names.begin(), names.end(), naturalOrder);
+    EXPECT_THAT(names, ElementsAre("strand", "strassz", "stra\xC3\x9Fz", "z2", "\xC3\xA4", "\xE8\xBB\x8A"));
+}
+
 TEST(NaturalOrder, IsAStrictOrder) {
     const std::vector<std::string> names = {
         "a1", "a01", "a001", "a1b", "a01b", "a", "", "a0", "a00", "12345678901234567890123", "1"};

@@ -117,6 +117,8 @@ TEST_F(CheckTest, FindsImpossibleValues) {
           "UPDATE run SET scale_vehicles = -1",
           "UPDATE run SET scale_growth_down = -1.5",
           "UPDATE run SET rate_assumed = 7",
+          "UPDATE run SET started_fraction_us = 1000000",
+          "UPDATE run SET started_fraction_us = 'soon'",
           "UPDATE sequence SET rate_assumed = -1",
           "UPDATE sequence SET start_utc = '2026-02-30T08:00:00Z'",
           "UPDATE frame SET width = -1 WHERE frame = 3",

@@ -148,6 +148,7 @@ TEST_F(ProjectFileTest, AnOlderProjectIsBroughtUpToDateEvenForReading) {
                   "DROP VIEW v_tracks",
                   "DROP VIEW v_runs",
                   "ALTER TABLE run DROP COLUMN rate_assumed",
+                  "ALTER TABLE run DROP COLUMN started_fraction_us",
                   "ALTER TABLE sequence DROP COLUMN rate_assumed",
                   "ALTER TABLE sequence DROP COLUMN start_utc",
                   "ALTER TABLE run DROP COLUMN scale_growth_right",
@@ -256,6 +257,7 @@ TEST_F(ProjectFileTest, AProjectOfSchemaOneOpensToday) {
     EXPECT_EQ(schema::numberOf(project.database()), schema::currentNumber());
     const RunStore store(project);
     ASSERT_EQ(store.runs().size(), 1U);
+    EXPECT_EQ(store.runs()[0].started_us, std::nullopt) << "nobody knows when in its second";
     EXPECT_EQ(store.runs()[0].sequence.path, "/videos/old.mp4");
     EXPECT_EQ(store.parameters(1).size(), 2U);
     const auto frame = store.frameResult(1, 7);
@@ -398,6 +400,7 @@ TEST_F(ProjectFileTest, StatesOfBeforeSchemaTwentyAreReadAsTheyWere) {
                   "ALTER TABLE sequence DROP COLUMN start_utc", "DROP INDEX doubtful_state_of_track",
                   "DROP VIEW v_detections", "DROP VIEW v_track_evidence", "ALTER TABLE detection DROP COLUMN decision",
                   "ALTER TABLE track_evidence DROP COLUMN decision", "DROP TABLE rejected_proposal",
+                  "ALTER TABLE run DROP COLUMN started_fraction_us",
                   "CREATE INDEX track_state_of_track ON track_state (run_id, track_id, frame)",
                   "PRAGMA user_version = 19"});
     ProjectFile project = ProjectFile::open(path_);

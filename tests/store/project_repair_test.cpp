@@ -154,6 +154,21 @@ TEST_F(RepairTest, ADamagedSlopeOfAScaleDoesNotCostTheRun) {
     }
 }
 
+TEST_F(RepairTest, ADamagedStartCostsTheFractionOfItsSecondAndNotTheRun) {
+    for (const char* damage : {"-1", "1000000", "'soon'"}) {
+        test::writeBytes(path_, whole_);
+        SQLite::Database(path_.string(), SQLite::OPEN_READWRITE)
+            .exec(std::string("UPDATE run SET started_fraction_us = ") + damage);
+        const RepairReport report = repair(test::bytesOf(path_));
+        EXPECT_THAT(report.lost, testing::Contains("when in its second run 1 began")) << damage;
+        ProjectFile project = ProjectFile::open(fresh_);
+        const auto run = RunStore(project).run(1);
+        EXPECT_EQ(run->name, "first try") << damage;
+        EXPECT_FALSE(run->started_utc.empty()) << damage;
+        EXPECT_EQ(run->started_us, std::nullopt) << damage;
+    }
+}
+
 TEST_F(RepairTest, ADamagedCorrectionOfTracksCostsItselfAlone) {
     for (const char* damage : {"track = x'0102'", "other = track", "kind = 'guess'", "frame = 9999", "track = x'01'",
                                "frame = -1", "person = hex(zeroblob(40000))"}) {

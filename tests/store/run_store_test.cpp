@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/utc_time.h"
 #include "store/runs/result_writer.h"
 #include "store/samples.h"
 #include "support/replaced_tracks.h"
@@ -92,6 +93,30 @@ TEST_F(RunStoreTest, RunsKeepWhatTheyWereStartedWith) {
     EXPECT_FALSE(store.run(id + 1).has_value());
     EXPECT_FALSE(store.run(0).has_value());
     EXPECT_FALSE(store.run(-3).has_value());
+}
+
+TEST_F(RunStoreTest, RunsKnowTheMicrosecondTheyBeganInAndTellTheSecond) {
+    ProjectFile project = ProjectFile::create(path_);
+    const RunStore store(project);
+    const std::int64_t before = nowUtcMicroseconds();
+    { const ResultWriter now(path_, sampleRun(), {}); }
+    const std::int64_t after = nowUtcMicroseconds();
+    const auto began = store.run(1)->started_us;
+    ASSERT_TRUE(began.has_value());
+    EXPECT_TRUE(before <= *began && *began <= after) << before << " " << *began << " " << after;
+    EXPECT_EQ(store.run(1)->started_utc, utcText(*began).substr(0, 19) + "Z");
+
+    RunRecord told = sampleRun();
+    told.started_us = utcOf("2026-11-21T08:00:00.987654Z");
+    { const ResultWriter writer(path_, told, {}); }
+    EXPECT_EQ(store.run(2)->started_us, told.started_us);
+    EXPECT_EQ(store.run(2)->started_utc, "2026-11-21T08:00:00Z");
+
+    RunRecord to_the_second = sampleRun();
+    to_the_second.started_utc = "2026-11-21T08:00:00Z";
+    { const ResultWriter writer(path_, to_the_second, {}); }
+    EXPECT_EQ(store.run(3)->started_us, std::nullopt);
+    EXPECT_EQ(store.run(3)->started_utc, "2026-11-21T08:00:00Z");
 }
 
 TEST_F(RunStoreTest, RunsKeepWhereTheirScaleComesFromAndHowSureItIs) {

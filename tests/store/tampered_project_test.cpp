@@ -76,6 +76,8 @@ TEST_F(TamperedProject, NumbersThatCannotBeAreRefused) {
         {"UPDATE run SET gsd_known = 0, scale_origin = 'estimated', scale_vehicles = -3", "number of vehicles"},
         {"UPDATE run SET scale_growth_down = 1.5", "slope of its scale"},
         {"UPDATE run SET scale_growth_right = 9e999", "slope of its scale"},
+        {"UPDATE run SET started_fraction_us = -1", "an impossible start"},
+        {"UPDATE run SET started_fraction_us = 1000000", "an impossible start"},
         {"UPDATE run SET frame_rate_hz = -25", "frame rate"},
         {"UPDATE run SET frame_rate_hz = 9e999", "frame rate"},
         {"UPDATE run SET last_frame = 2147483647", "frames outside"},

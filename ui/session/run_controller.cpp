@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "chain/scale/scale_estimation.h"
+#include "core/utc_time.h"
 #include "metadata/metadata_scale.h"
 
 namespace eyrie::ui {
@@ -86,6 +87,7 @@ void RunController::work(const RunRequest& request, LiveFeed& feed, const Backgr
     RunSummary summary;
     int run_id = 0;
     try {
+        const std::int64_t began_us = nowUtcMicroseconds();
         const auto source = request.media.open({}, stop);
         if (request.resume_run > 0) {
             const ResumedRun resumed = resumedRun(request.project, request.resume_run, *source);
@@ -103,6 +105,7 @@ void RunController::work(const RunRequest& request, LiveFeed& feed, const Backgr
             RunRecord record = plannedRun(source->info(), chosen.scale, request.range, request.preset);
             record.scale_basis = chosen.basis;
             record.name = request.name;
+            record.started_us = began_us;
             record.sequence.path = request.media.identity;
             RunRecorder recorder(request.project, record, request.options, &feed, request.recording);
             run_id = recorder.runId();

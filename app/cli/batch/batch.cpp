@@ -1,8 +1,5 @@
 #include "cli/batch/batch.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <csignal>
 #include <cstring>
@@ -56,22 +53,17 @@ std::optional<RunRecord> runOf(const RunStore& store, const BatchRow& row, Resum
     return chooseRun(store, row.project.string(), wishes).run;
 }
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
-
-/// When a file was made, ns since 1970 (UTC); nothing on disks that do not know.
-std::optional<std::int64_t> madeAt(const std::filesystem::path& file) {
-    struct statx facts {};
-    if (statx(AT_FDCWD, file.c_str(), 0, STATX_BTIME, &facts) != 0 || (facts.stx_mask & STATX_BTIME) == 0) return {};
-    return facts.stx_btime.tv_sec * kSecond_ns + facts.stx_btime.tv_nsec;
-}
-
-/// Whether a file was written after a run of it began, so that the run is one of other contents. Runs know the second
-/// they began in; within it the project tells, which is made just before its first run.
-bool isNewer(const BatchRow& row, const RunRecord& run) {
-    const std::string changed = utcTextOfSeconds(row.input.changed_ns / kSecond_ns);
-    if (changed != run.started_utc) return changed > run.started_utc;
-    const auto made = madeAt(row.project);
-    return made && row.input.changed_ns > *made;
+/// Whether an input may have been written after a run of it began, so that the run is one of other contents. When in
+/// doubt it was: doing it once more costs less than a result of something else. Runs of older versions know only the
+/// second in which they began.
+bool isNewer(const BatchInput& input, const RunRecord& run) {
+    const auto began_us = run.started_us ? run.started_us : utcOf(run.started_utc);
+    if (!began_us) return true;
+    // A clock that ticks tells the times of files. Some disks keep every second, or every other one, alone.
+    constexpr std::int64_t kTick_ns = 10'000'000;
+    constexpr std::int64_t kSecond_ns = 1'000'000'000;
+    const std::int64_t step_ns = input.changed_ns % kSecond_ns == 0 ? 2 * kSecond_ns : kTick_ns;
+    return (input.changed_ns + step_ns) / 1000 >= *began_us;
 }
 
 /// Takes over what its project says of an input; answers the finished run, if there is one.
@@ -174,7 +166,7 @@ void Batch::begin(std::size_t number) {
     if (!row.input.fault.empty()) return close(number, BatchState::failed, row.input.fault);
     try {
         const auto run = row.anew ? std::nullopt : takeFacts(row, options_.wishes);
-        if (run && !isNewer(row, *run)) return close(number, BatchState::done_before, "");
+        if (run && !isNewer(row.input, *run)) return close(number, BatchState::done_before, "");
         row.anew = row.anew || run.has_value();
     } catch (const Error& error) {
         return close(number, BatchState::failed, error.what());

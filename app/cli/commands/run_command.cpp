@@ -22,6 +22,7 @@
 #include "cli/reports/run_report.h"
 #include "core/error.h"
 #include "core/project_name.h"
+#include "core/utc_time.h"
 #include "io/folder.h"
 #include "io/live/live_address.h"
 #include "io/tables/box_csv.h"
@@ -175,8 +176,8 @@ MayAddRun unlessBegunMeanwhile(const RunArguments& arguments, const FrameSource&
     };
 }
 
-EndedRun runAnew(const RunArguments& arguments, FrameSource& source, const std::filesystem::path& project,
-                 const std::stop_token& stop) {
+EndedRun runAnew(const RunArguments& arguments, std::int64_t began_us, FrameSource& source,
+                 const std::filesystem::path& project, const std::stop_token& stop) {
     const FrameRange range = arguments.video.range();
     const ChainOptions options = arguments.preset.options();
     const VideoInfo& video = source.info();
@@ -185,6 +186,7 @@ EndedRun runAnew(const RunArguments& arguments, FrameSource& source, const std::
     RunRecord planned = plannedRun(video, chosen.scale, range, arguments.preset.preset);
     planned.scale_basis = chosen.basis;
     planned.name = arguments.name;
+    planned.started_us = began_us;
     const RecordingOptions recording =
         arguments.detections_csv.empty()
             ? arguments.preset.recording()
@@ -238,11 +240,11 @@ EndedRun asItIs(const RunArguments& arguments, const RunRecord& run, FrameSource
     return ended;
 }
 
-/// A new run, unless another program did it meanwhile.
-EndedRun begin(const RunArguments& arguments, FrameSource& source, const std::filesystem::path& project,
-               const std::stop_token& stop) {
+/// A new run, unless another program did it meanwhile. `began_us`: before `source` was opened.
+EndedRun begin(const RunArguments& arguments, std::int64_t began_us, FrameSource& source,
+               const std::filesystem::path& project, const std::stop_token& stop) {
     try {
-        return runAnew(arguments, source, project, stop);
+        return runAnew(arguments, began_us, source, project, stop);
     } catch (const FinishedMeanwhile& other) {
         if (!arguments.detections_csv.empty()) {
             ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
@@ -314,6 +316,7 @@ int runLive(const RunArguments& arguments) {
 
 /// Answers the exit code.
 int runVideo(const RunArguments& arguments, const std::stop_token& stop) {
+    const std::int64_t began_us = nowUtcMicroseconds();
     const std::filesystem::path project = projectPath(arguments);
     std::unique_ptr<FrameSource> source;
     if (!arguments.inputs.empty()) {
@@ -332,7 +335,7 @@ int runVideo(const RunArguments& arguments, const std::stop_token& stop) {
         source = openInput(choice.run->sequence.path, 0, stop, choice.run->scale.frame_rate_hz);
     }
     if (!keepEarlierState(project, stop)) return exit_stopped;
-    const auto [record, summary, has_video] = !choice.run ? begin(arguments, *source, project, stop)
+    const auto [record, summary, has_video] = !choice.run ? begin(arguments, began_us, *source, project, stop)
                                               : choice.run->state == RunState::finished
                                                   ? asItIs(arguments, *choice.run, *source, project, stop)
                                                   : goOn(arguments, *choice.run, *source, project, stop);

@@ -20,7 +20,7 @@ enum class TrackStatus : std::uint8_t {
 /// Where the box of a track state came from (Teutsch §6.3).
 enum class StateOrigin : std::uint8_t {
     detected,       ///< updated by a detection
-    reconstructed,  ///< updated by a box rebuilt from associated motion vectors
+    reconstructed,  ///< by a box rebuilt from associated motion vectors, or followed in the pictures after the run
     predicted,      ///< the Kalman prediction alone
     standing,       ///< it stands: the picture at its place on the ground goes on to look like it
     by_hand         ///< a person drew it, or it was followed from there; no run has such states

@@ -111,7 +111,7 @@ bool naturalOrder(const std::string& a, const std::string& b) {
     std::size_t j = 0;
     while (i < a.size() && j < b.size()) {
         if (!isDigit(a[i]) || !isDigit(b[j])) {
-            if (a[i] != b[j]) return a[i] < b[j];
+            if (a[i] != b[j]) return static_cast<unsigned char>(a[i]) < static_cast<unsigned char>(b[j]);
             ++i;
             ++j;
             continue;

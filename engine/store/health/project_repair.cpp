@@ -151,6 +151,7 @@ bool fill(SQLite::Database& database, const DamagedCopy& copy, const CopyWatch& 
         append(report.lost, mendScaleOrigins(database));
         append(report.lost, mendScaleSlopes(database));
         append(report.lost, mendVideoStarts(database));
+        append(report.lost, mendRunStarts(database));
         append(report.lost, dropImpossibleRows(database));
         append(report.lost, mendReferences(database));
         append(report.lost, mendRuns(database, frames_whole));

@@ -111,6 +111,15 @@ std::vector<std::string> mendVideoStarts(SQLite::Database& database) {
     return lost;
 }
 
+std::vector<std::string> mendRunStarts(SQLite::Database& database) {
+    const std::string broken = "NOT (" + fittingRunStart() + ")";
+    std::vector<std::string> lost;
+    for (const std::string& id : textsOf(database, "SELECT id FROM run WHERE " + broken + " ORDER BY id"))
+        lost.push_back("when in its second run " + id + " began");
+    database.exec("UPDATE run SET started_fraction_us = NULL WHERE " + broken);
+    return lost;
+}
+
 std::vector<std::string> dropImpossibleRows(SQLite::Database& database) {
     addRowFunctions(database);
     std::vector<std::string> lost;

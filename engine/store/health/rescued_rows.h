@@ -20,6 +20,9 @@ std::vector<std::string> mendScaleSlopes(SQLite::Database& database);
 /// Videos that begin at no time begin nobody knows when.
 std::vector<std::string> mendVideoStarts(SQLite::Database& database);
 
+/// Runs that began at no moment of their second began some time in it.
+std::vector<std::string> mendRunStarts(SQLite::Database& database);
+
 /// Deletes rows that no writer wrote.
 std::vector<std::string> dropImpossibleRows(SQLite::Database& database);
 

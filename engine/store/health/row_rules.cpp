@@ -152,6 +152,11 @@ std::string fittingVideoStart() {
     return "(start_utc = '' OR is_moment(start_utc))";
 }
 
+std::string fittingRunStart() {
+    return "(started_fraction_us IS NULL OR "
+           "typeof(started_fraction_us) = 'integer' AND started_fraction_us BETWEEN 0 AND 999999)";
+}
+
 std::vector<RowRule> rowRules() {
     const std::string frames = " BETWEEN 0 AND " + std::to_string(kLastFrame + 1);
     const std::string frame = "frame" + frames;
@@ -176,6 +181,7 @@ std::vector<RowRule> rowRules() {
         {"run", "rate_assumed IN (0, 1)", "whether the frame rate of a run is assumed is impossible", 19},
         {"sequence", fittingVideoStart(), "when a video began is no time", 21},
         {"run", fittingScaleSlope(), "how the scale of a run changes over the picture is impossible", 14},
+        {"run", fittingRunStart(), "when in its second a run began is impossible", 26},
         {"frame",
          frame + " AND width" + kPixels + " AND height" + kPixels + " AND corner_count >= 0 AND " +
              isOneOf("registration_state", stored::kRegistrationStates),

@@ -27,6 +27,9 @@ std::string fittingScaleSlope();
 /// The same for when a video began.
 std::string fittingVideoStart();
 
+/// The same for when in its second a run began.
+std::string fittingRunStart();
+
 /// Gives a connection the functions that the rules use: whether packed bytes can be unpacked.
 void addRowFunctions(SQLite::Database& database);
 

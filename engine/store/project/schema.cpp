@@ -39,7 +39,8 @@ constexpr std::array kMigrations{addRuns,
                                  addArrows,
                                  addDoubtfulIndex,
                                  addDecisions,
-                                 addRejectedProposals};
+                                 addRejectedProposals,
+                                 addStartFractions};
 
 }  // namespace
 

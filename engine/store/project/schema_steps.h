@@ -33,5 +33,6 @@ void addArrows(SQLite::Database& database);
 void addDoubtfulIndex(SQLite::Database& database);
 void addDecisions(SQLite::Database& database);
 void addRejectedProposals(SQLite::Database& database);
+void addStartFractions(SQLite::Database& database);
 
 }  // namespace eyrie::schema

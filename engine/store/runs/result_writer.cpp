@@ -19,18 +19,34 @@
 namespace eyrie {
 namespace {
 
+/// How far into the second of `started_utc` a run began; not a number where only the second is known.
+double startFraction(const RunRecord& run) {
+    if (!run.started_us) return std::numeric_limits<double>::quiet_NaN();
+    const std::chrono::microseconds start(*run.started_us);
+    return static_cast<double>((start - floor<std::chrono::seconds>(start)).count());
+}
+
+/// Fills in when a run begins, as far as nobody said it.
+void tellStart(RunRecord& run) {
+    if (!run.started_us && run.started_utc.empty()) run.started_us = nowUtcMicroseconds();
+    if (!run.started_us) return;
+    const std::chrono::microseconds start(*run.started_us);
+    run.started_utc = utcTextOfSeconds(floor<std::chrono::seconds>(start).count());
+}
+
 int storeRun(SQLite::Database& database, const RunRecord& run) {
     SQLite::Statement statement(
         database,
-        "INSERT INTO run (sequence_id, name, started_utc, engine_version, preset, gsd_m_per_px, gsd_known, "
-        "frame_rate_hz, scale_origin, scale_uncertainty, scale_vehicles, scale_growth_right, scale_growth_down, "
-        "first_frame, last_frame, state, message, rate_assumed) "
-        "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+        "INSERT INTO run (sequence_id, name, started_utc, started_fraction_us, engine_version, preset, "
+        "gsd_m_per_px, gsd_known, frame_rate_hz, scale_origin, scale_uncertainty, scale_vehicles, scale_growth_right, "
+        "scale_growth_down, first_frame, last_frame, state, message, rate_assumed) "
+        "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
     const ScaleBasis basis = agreeing(run.scale_basis, run.scale);
     RowWriter(statement)
         .integer(run.sequence.id)
         .text(run.name)
         .text(run.started_utc)
+        .real(startFraction(run))
         .text(run.engine_version)
         .text(run.preset)
         .real(run.scale.gsd_m_per_px)
@@ -119,7 +135,7 @@ ResultWriter::ResultWriter(const std::filesystem::path& project, RunRecord run,
         SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
         if (may_add) may_add(RunStore(implementation_->project));
         run.sequence.id = storeSequence(database, run.sequence);
-        if (run.started_utc.empty()) run.started_utc = nowUtc();
+        tellStart(run);
         implementation_->run_id = storeRun(database, run);
         // Taken before others can see the run. Where nothing can be locked the run is written all the same.
         implementation_->lock = FileLock::tryTake(runLockFile(path, implementation_->run_id)).lock;

@@ -20,9 +20,10 @@ using MayAddRun = std::function<void(const RunStore&)>;
 class ResultWriter {
  public:
     /// Adds sequence (unless a row of the same path and size exists), run and parameters, committed at once. `run.id`,
-    /// `run.sequence.id`, `run.started_utc` (when empty) are filled in. `run.last_frame` kLastFrame: the end is not
-    /// known before, and run and video end at the newest frame that is there; until there is one, before the first.
-    /// `may_add`: what it throws is thrown, and nothing is added. Throws Error(project | output).
+    /// `run.sequence.id` and the start are filled in: `run.started_us`, else `run.started_utc`, else now.
+    /// `run.last_frame` kLastFrame: the end is not known before, and run and video end at the newest frame that is
+    /// there; until there is one, before the first. `may_add`: what it throws is thrown, and nothing is added. Throws
+    /// Error(project | output).
     ResultWriter(const std::filesystem::path& project, RunRecord run,
                  const std::vector<std::pair<std::string, std::string>>& parameters, const MayAddRun& may_add = {});
     /// Goes on with a run that ended early, from the frame after `last`; see RunStateStore::takeUp. Throws

@@ -50,12 +50,22 @@ ScaleBasis readBasis(RowReader& row) {
     return basis;
 }
 
+/// When a run began, in its second by `fraction_us`, as result_writer.cpp stores it.
+std::optional<std::int64_t> startOf(const RunRecord& run, double fraction_us) {
+    if (std::isnan(fraction_us)) return std::nullopt;
+    if (!(fraction_us >= 0 && fraction_us < 1e6))
+        throw MalformedRow{"run " + std::to_string(run.id) + " has an impossible start"};
+    const auto second_us = utcOf(run.started_utc);
+    return second_us ? std::optional(*second_us + static_cast<std::int64_t>(fraction_us)) : std::nullopt;
+}
+
 RunRecord readRun(SQLite::Statement& statement, const std::filesystem::path& project) {
     RowReader row(statement);
     RunRecord run;
     run.id = row.integer();
     run.name = row.text();
     run.started_utc = row.text();
+    run.started_us = startOf(run, row.real());
     run.engine_version = row.text();
     run.preset = row.text();
     run.scale.gsd_m_per_px = row.real();
@@ -92,11 +102,9 @@ RunRecord readRun(SQLite::Statement& statement, const std::filesystem::path& pro
 std::vector<RunRecord> readRuns(ProjectFile& project, const std::string& where, int run_id = 0) {
     SQLite::Statement statement(
         project.database(),
-        "SELECT run.id, name, started_utc, engine_version, preset, gsd_m_per_px, gsd_known, run.frame_rate_hz, "
-        "scale_origin, scale_uncertainty, scale_vehicles, scale_growth_right, scale_growth_down, first_frame, "
-        "last_frame, "
-        "state, message, sequence.id, path, "
-        "width, height, frame_count, "
+        "SELECT run.id, name, started_utc, started_fraction_us, engine_version, preset, gsd_m_per_px, gsd_known, "
+        "run.frame_rate_hz, scale_origin, scale_uncertainty, scale_vehicles, scale_growth_right, scale_growth_down, "
+        "first_frame, last_frame, state, message, sequence.id, path, width, height, frame_count, "
         "sequence.frame_rate_hz, sequence.rate_assumed, run.rate_assumed, (SELECT count(*) FROM frame WHERE "
         "frame.run_id = run.id) "
         "FROM run JOIN sequence ON sequence.id = run.sequence_id WHERE " +

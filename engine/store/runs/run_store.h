@@ -44,6 +44,8 @@ struct RunRecord {
     SequenceRecord sequence;
     std::string name;         ///< given by the user; may be empty
     std::string started_utc;  ///< ISO 8601, e.g. 2026-11-21T08:00:00Z
+    /// The same moment, µs since 1970-01-01 (UTC): before its video was read. Runs of before schema 26 lack it.
+    std::optional<std::int64_t> started_us;
     std::string engine_version;
     std::string preset;  ///< name of the preset it started from
     SceneScale scale;

@@ -52,7 +52,8 @@ TEST_F(RejectedProposals, ThereAreNoneInAProjectOfBefore) {
     const int run = test::writeSampleProject(path_, 2);
     {
         SQLite::Database database(path_.string(), SQLite::OPEN_READWRITE);
-        database.exec("DROP TABLE rejected_proposal; PRAGMA user_version = 24");
+        database.exec(
+            "DROP TABLE rejected_proposal; ALTER TABLE run DROP COLUMN started_fraction_us; PRAGMA user_version = 24");
     }
     ProjectFile project = ProjectFile::open(path_);
     EXPECT_EQ(schema::numberOf(project.database()), schema::currentNumber());
