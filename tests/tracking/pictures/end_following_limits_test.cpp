@@ -59,6 +59,16 @@ TEST(EndFollowingLimits, ReadsWhatItNeedsAndTellsWhichEndsItFollowed) {
     }
 }
 
+TEST(EndFollowingLimits, OneFrameIsOneFrame) {
+    test::FilmedDrive drive;
+    const Followed one = follow(drive, drive.path(20, 40), 1);
+    EXPECT_EQ(one.path.firstFrame(), 19);
+    EXPECT_EQ(one.path.lastFrame(), 41);
+    drive.asked.clear();
+    EXPECT_EQ(follow(drive, drive.path(20, 40), 0).path.states.size(), 21U);
+    EXPECT_TRUE(drive.asked.empty());
+}
+
 TEST(EndFollowingLimits, GoesOnToTheLastFrameOfTheRun) {
     test::FilmedDrive drive;
     const Followed followed = follow(drive);
@@ -191,6 +201,9 @@ TEST(EndFollowingLimits, ABoxThatSlowsDownAsNoVehicleDoesIsTakenBack) {
     const Followed braked = slowing(6);
     EXPECT_TRUE(braked.on());
     EXPECT_NEAR(braked.path.lastFrame(), 49, 1) << "none of what followed the jolt";
+    const Followed at_once = follow(drive, drive.path(20, 49), 60);
+    EXPECT_EQ(at_once.path.lastFrame(), 49) << "what the tracker saw stays";
+    EXPECT_FALSE(at_once.on());
     // Back in time, the same.
     const auto gathering = [&](double gained) {
         drive.place = [gained](double frame) { return 100 + 4 * frame + std::max(0.0, 20 - frame) * gained / 5; };
@@ -200,6 +213,9 @@ TEST(EndFollowingLimits, ABoxThatSlowsDownAsNoVehicleDoesIsTakenBack) {
     const Followed jolted = gathering(6);
     EXPECT_TRUE(jolted.back());
     EXPECT_NEAR(jolted.path.firstFrame(), 21, 1);
+    const Followed at_once_back = follow(drive, drive.path(21, 79), 60);
+    EXPECT_EQ(at_once_back.path.firstFrame(), 21);
+    EXPECT_FALSE(at_once_back.back());
 }
 
 TEST(EndFollowingLimits, WhatComesNearerInAnObliqueViewDoesNotBrakeOrGatherSpeed) {
@@ -221,12 +237,11 @@ TEST(EndFollowingLimits, HoldsFewPicturesWhereTheyAreLarge) {
     for (FrameIndex frame = 1; frame < drive.frames; ++frame) drive.frozen.insert(frame);
     drive.place = [](double) { return 200.0; };
     const auto first = [&](cv::Size size) {
-        drive.size = size;
         std::vector<TrackPath> paths{drive.path(20, 40)};
         for (auto& [frame, state] : paths[0].states) state.velocity = {4, 0};
         const cv::Mat picture(size, CV_8UC1, cv::Scalar(0));
         followEnds(
-            paths, drive.ground(), [&](FrameIndex) { return picture; }, 10, test::FilmedDrive::kScale);
+            paths, drive.ground(size), [&](FrameIndex) { return picture; }, 10, test::FilmedDrive::kScale);
         return paths[0].firstFrame();
     };
     EXPECT_EQ(first({640, 200}), 10);

@@ -13,9 +13,9 @@ namespace eyrie::test {
 
 /// A patterned car on patterned ground under a camera at rest, 5 px a metre, and what a tracker knows of it.
 struct FilmedDrive {
+    static inline const cv::Size kSize{640, 200};
     static constexpr SceneScale kScale{.gsd_m_per_px = 0.2, .frame_rate_hz = 25, .gsd_known = true};
 
-    cv::Size size{640, 200};
     int frames = 60;
     double speed = 4;                                                                    ///< px/frame, to the right
     std::function<double(double)> place = [this](double f) { return 100 + speed * f; };  ///< x in a frame
@@ -35,17 +35,18 @@ struct FilmedDrive {
 
     cv::Mat pictureOf(FrameIndex frame) {
         asked.push_back(frame);
-        cv::Mat picture = grain(size, 1, 3.5);
+        static const cv::Mat bare = grain(kSize, 1, 3.5);
+        cv::Mat picture = bare.clone();
         if (!there(frame)) return picture;
         static const cv::Mat car = grain({24, 12}, 2, 1.6);
         const OrientedBox box = boxAt(frame);
         const double scale = box.length / car.cols;
         const cv::Matx23d onto(scale, 0, box.centre.x - scale * 11.5, 0, scale, box.centre.y - scale * 5.5);
-        cv::warpAffine(car, picture, onto, size, cv::INTER_LINEAR, cv::BORDER_TRANSPARENT);
+        cv::warpAffine(car, picture, onto, kSize, cv::INTER_LINEAR, cv::BORDER_TRANSPARENT);
         return picture;
     }
 
-    GroundMotion ground() const {
+    GroundMotion ground(cv::Size size = kSize) const {
         GroundMotion motion;
         for (FrameIndex frame = 0; frame < frames; ++frame) {
             FrameMotionSummary summary = summaryOfFrame(frame);
