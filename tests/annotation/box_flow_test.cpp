@@ -164,6 +164,8 @@ TEST(CameraAroundABox, IsTakenToStandWhereNothingCanBeFollowed) {
     EXPECT_TRUE(stands(ground(), next, {{120, 90}, 400, 300, 0})) << "the box fills the picture";
     const cv::Rect narrow(0, 0, 31, 180);
     EXPECT_TRUE(stands(ground()(narrow), next(narrow), {{15, 90}, 4, 4, 0}));
+    const cv::Rect low(0, 0, 240, 31);
+    EXPECT_TRUE(stands(ground()(low), next(low), {{120, 15}, 4, 4, 0}));
     EXPECT_FALSE(stands(ground(), next, standingBox()));
 }
 

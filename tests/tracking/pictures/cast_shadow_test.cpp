@@ -116,15 +116,6 @@ TEST(CastShadow, IsSoughtAnewAfterAGap) {
     EXPECT_LT(shadows[1].reach_m.x, -0.7);
 }
 
-TEST(GroundTurns, BeginAnewAfterTheLongestStretch) {
-    GroundMotion ground;
-    for (FrameIndex frame = 0; frame < 30; ++frame) ground.add(test::summaryOfFrame(frame));
-    const GroundTurns turns(ground, 5, 29, 10);
-    EXPECT_EQ(turns.at(14).stretch, 5);
-    EXPECT_EQ(turns.at(15).stretch, 15);
-    EXPECT_EQ(turns.at(29).stretch, 25);
-}
-
 TEST(CastShadow, IsTakenOutOfBoxesAsFarAsTheyHoldIt) {
     std::vector<SilhouetteLook> looks = crossing(5, kReach, 0);
     for (const FrameIndex frame : {0, 10, 20}) {
