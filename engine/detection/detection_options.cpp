@@ -17,6 +17,8 @@ DetectionOptions DetectionOptions::thesis() {
     options.method = DetectionMethod::gradient;
     options.min_roi_length_m = 0;
     options.min_roi_width_m = 0;
+    options.min_roi_length_px = 0;
+    options.min_roi_width_px = 0;
     options.cluster_margin = 0;
     for (const DetectionMethod known : allDetectionMethods()) kindOf(known).set_as_in_thesis(options);
     return options;
@@ -44,6 +46,13 @@ void DetectionOptions::describe(ParameterVisitor& visitor) {
     declare.real("detection.min_roi_length", min_roi_length_m, 0, 100,
                  {"m", "A search area is at least this long.", ""});
     declare.real("detection.min_roi_width", min_roi_width_m, 0, 100, {"m", "A search area is at least this wide.", ""});
+    declare.real("detection.min_roi_length_px", min_roi_length_px, 0, 1000,
+                 {"px",
+                  "A search area is at least this long, however coarse the picture: where a small vehicle lies is not "
+                  "known to the pixel.",
+                  ""});
+    declare.real("detection.min_roi_width_px", min_roi_width_px, 0, 1000,
+                 {"px", "A search area is at least this wide, however coarse the picture.", ""});
     deciding.real(
         "detection.cluster_margin", cluster_margin, 0, 20,
         {"px", "Where a cluster itself is the detection, its box is grown by this on every side of its vectors.", ""});

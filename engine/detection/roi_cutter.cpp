@@ -15,8 +15,10 @@ OrientedBox extendedCluster(const MotionCluster& cluster, cv::Size image, const 
     OrientedBox area = cluster.box.scaled(options.extend_along, options.extend_across);
     const SceneScale here = scale.at(cluster.box.centre);
     const double context = looksThroughWindows(options.method) ? 2 * here.px(options.sliding_window.context_m) : 0;
-    area.length = std::clamp(context + std::max(area.length, here.px(options.min_roi_length_m)), kSmallest, largest);
-    area.width = std::clamp(context + std::max(area.width, here.px(options.min_roi_width_m)), kSmallest, largest);
+    const double length = std::max({area.length, here.px(options.min_roi_length_m), options.min_roi_length_px});
+    const double width = std::max({area.width, here.px(options.min_roi_width_m), options.min_roi_width_px});
+    area.length = std::clamp(context + length, kSmallest, largest);
+    area.width = std::clamp(context + width, kSmallest, largest);
     return area;
 }
 

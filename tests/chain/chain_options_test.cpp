@@ -279,6 +279,8 @@ TEST(ChainOptions, theThesisPresetDiffersFromTheDefaultsWhereItMust) {
         {"detection.method", "gradient"},
         {"detection.min_roi_length", "0"},
         {"detection.min_roi_width", "0"},
+        {"detection.min_roi_length_px", "0"},
+        {"detection.min_roi_width_px", "0"},
         {"detection.cluster_margin", "0"},
         {"gradient.quantile", "0"},
         {"gradient.quantile_area", "roi"},
