@@ -63,6 +63,10 @@ TEST(RoiCutter, IsAtLeastAsLargeAsItsParametersSay) {
     EXPECT_DOUBLE_EQ(area("detection.min_roi_width", "2.2").width, 2.2 / 0.11);
     EXPECT_DOUBLE_EQ(area("detection.min_roi_width", "2.2").length, 40);
     EXPECT_DOUBLE_EQ(area("detection.min_roi_width", "1").width, 10);
+    EXPECT_DOUBLE_EQ(area("detection.min_roi_length_px", "44").length, 44);
+    EXPECT_DOUBLE_EQ(area("detection.min_roi_length_px", "44").width, 10);
+    EXPECT_DOUBLE_EQ(area("detection.min_roi_width_px", "15").width, 15);
+    EXPECT_DOUBLE_EQ(area("detection.min_roi_width_px", "15").length, 40);
 }
 
 TEST(RoiCutter, TheThesisSearchesTheExtendedClusterWithEveryMethod) {

@@ -26,10 +26,11 @@ OrientedBox carried(OrientedBox box, cv::Point2d way, const Homography& map) {
 }
 
 /// Corners at the edge of what grows agree less at first, so it is followed in part from step to step.
-double growthOf(const BoxFlow& flow, int least_corners) {
+double growthOf(const BoxFlow& flow, const FollowOptions& options) {
     constexpr double kAgreeingShare = 0.6;
     constexpr double kLargest = 1.15;
-    if (least_corners < 1 || flow.agreeing < least_corners || flow.agreeing < kAgreeingShare * flow.corners) return 1;
+    if (options.corners_to_grow < 1 || flow.box.area() < options.size_to_grow_px * options.size_to_grow_px) return 1;
+    if (flow.agreeing < options.corners_to_grow || flow.agreeing < kAgreeingShare * flow.corners) return 1;
     return std::clamp(flow.growth, 1 / kLargest, kLargest);
 }
 
@@ -59,7 +60,7 @@ BoxFollower::Step BoxFollower::advance(const cv::Mat& current, const cv::Mat& ne
         flowOf(current, next, box_, predicted, {options_.max_corners, options_.max_forward_backward_px});
     Step step;
     step.box = bestMatch(next, flow, predicted);
-    const double growth = growthOf(flow, options_.corners_to_grow);
+    const double growth = growthOf(flow, options_);
     step.box.length *= growth;
     step.box.width *= growth;
     growth_ = std::sqrt(growth_ * growth_ * growth);

@@ -31,9 +31,10 @@ struct FollowOptions {
     double max_speed_change_share = 0;  ///< … or that share of the box's size (the root of its area) if it is more
     double usual_share = 0.12;          ///< of each step in its usual motion, which does not change at once
     int corners_to_grow = 0;            ///< that must agree for the box to grow and shrink with them; 0: it does not
-    double max_standing_px = 0.4;       ///< px/frame over the ground: up to that it waits
-    double min_seen = 0.5;              ///< share of what waits that must be seen while others pass in front of it …
-    int max_hidden_frames = 45;         ///< … but for so long, if it is seen again afterwards
+    double size_to_grow_px = 0;    ///< root of the area from which it does; little ones would only follow the noise
+    double max_standing_px = 0.4;  ///< px/frame over the ground: up to that it waits
+    double min_seen = 0.5;         ///< share of what waits that must be seen while others pass in front of it …
+    int max_hidden_frames = 45;    ///< … but for so long, if it is seen again afterwards
 };
 
 /// Follows one box from picture to picture: by corners inside it (tracked there and back) and by how it looked at the

@@ -16,6 +16,7 @@ constexpr double kSureTrack = 0.8;          ///< score from which a track is sur
 constexpr int kSurelyDetected = 6;          ///< … and states in which it was detected, at least
 constexpr double kSureLooks = 0.78;         ///< certainty below which the pictures do not surely show it any more
 constexpr double kFairLooks = 0.55;         ///< that will do where many corners agree
+constexpr double kNearBy = 32;              ///< px, root of the area: so large a vehicle carries many corners …
 constexpr int kManyCorners = 12;            ///< … which are so many …
 constexpr double kAgreeingShare = 0.6;      ///< … and that share of all in the box
 constexpr double kSurelyMoves = 1.5;        ///< px/frame over the ground
@@ -40,6 +41,7 @@ FollowOptions followOptions(double frame_rate_hz) {
     FollowOptions options;
     options.usual_share = std::clamp(1 / (kUsualSeconds * frame_rate_hz), options.usual_share, 0.5);
     options.corners_to_grow = kManyCorners;
+    options.size_to_grow_px = kNearBy;
     options.max_speed_change_share = kJumpShare * std::clamp(1 / (0.04 * frame_rate_hz), 1.0, 2.0);
     return options;
 }
@@ -127,7 +129,8 @@ class EndFollower {
     bool drivesBySight(const BoxFollower::Step& moved, const Homography& map) const {
         const cv::Point2d before = map.applyToVector(state_.box.centre, follower_.usualVelocity());
         const cv::Point2d way = moved.box.centre - map.apply(state_.box.centre);
-        return moved.agreeing >= kManyCorners && moved.agreeing >= kAgreeingShare * moved.corners &&
+        return moved.box.area() >= kNearBy * kNearBy && moved.agreeing >= kManyCorners &&
+               moved.agreeing >= kAgreeingShare * moved.corners &&
                std::hypot(way.x, way.y) >= std::max(kSurelyMoves, 0.5 * std::hypot(before.x, before.y));
     }
     /// A box that lost its vehicle sticks to the ground, or is taken along by another.

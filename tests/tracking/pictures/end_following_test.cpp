@@ -121,6 +121,59 @@ TEST(EndFollowing, atMostAsLongAsAskedFor) {
     EXPECT_EQ(frames.rbegin()->first, kLost + 10);
 }
 
+// 10 frames a second; it turns right by half a right angle, nears, and is twice as large in the end.
+TEST(EndFollowing, aVehicleThatNearsRoundABendIsFollowedByItsCornersAndGrowsWithThem) {
+    constexpr SceneScale slow{.gsd_m_per_px = 0.1, .frame_rate_hz = 10, .gsd_known = true};
+    constexpr int last = 40;
+    std::vector<OrientedBox> boxes;
+    cv::Point2d place(120, 90);
+    for (int frame = 0; frame <= last; ++frame) {
+        const double bend = std::max(0, frame - 26) / 14.0;
+        const double larger = 1 + bend;
+        const double heading = 0.8 * bend;
+        boxes.push_back({place, 56 * larger, 26 * larger, heading});
+        place += 7 * larger * cv::Point2d(std::cos(heading), std::sin(heading));
+    }
+    const auto picture_of = [&](FrameIndex frame) {
+        static const cv::Mat car = grain({56, 26}, 2);
+        cv::Mat picture = grain({720, 480}, 1);
+        const OrientedBox& box = boxes[static_cast<std::size_t>(frame)];
+        const double c = std::cos(box.heading) * box.length / 56;
+        const double s = std::sin(box.heading) * box.length / 56;
+        const cv::Matx23d onto(c, -s, box.centre.x - c * 27.5 + s * 12.5, s, c, box.centre.y - s * 27.5 - c * 12.5);
+        cv::warpAffine(car, picture, onto, picture.size(), cv::INTER_LINEAR, cv::BORDER_TRANSPARENT);
+        return picture;
+    };
+    std::vector<FrameMotionSummary> motion;
+    std::vector<TimedState> states;
+    for (FrameIndex frame = 0; frame <= last; ++frame) {
+        motion.push_back(test::summaryOfFrame(frame, 0));
+        motion.back().image_size = {720, 480};
+        if (frame > 25) continue;
+        TrackState state;
+        state.id = 1;
+        state.box = boxes[static_cast<std::size_t>(frame)];
+        state.velocity = {7, 0};
+        state.status = TrackStatus::confirmed;
+        states.emplace_back(frame, state);
+    }
+    FoundInFrames found;
+    found.classified_at = [&](FrameIndex frame) {
+        return std::vector<ClassifiedBox>{{boxes[static_cast<std::size_t>(frame)], true, 6}};
+    };
+    found.gray_at = picture_of;
+    FinishingOptions options;
+    options.trim_shadows = false;
+    const std::vector<TimedState> finished = finishTracks(states, motion, options, slow, found);
+    ASSERT_EQ(finished.back().first, last);
+    for (const auto& [frame, state] : finished) {
+        const OrientedBox& truth = boxes[static_cast<std::size_t>(frame)];
+        EXPECT_NEAR(state.box.centre.x, truth.centre.x, 3) << frame;
+        EXPECT_NEAR(state.box.centre.y, truth.centre.y, 3) << frame;
+        EXPECT_GT(overlap(state.box, truth), 0.7) << frame;
+    }
+}
+
 TEST(EndFollowing, aDoubtfulTrackIsLeftAsItIs) {
     LateCar car;
     car.decision = -2;
