@@ -36,8 +36,8 @@ struct DetectionOptions {
     double extend_across = 1.25;    ///< … and by this one across it
     double min_roi_length_m = 7;    ///< a search area is at least this long …
     double min_roi_width_m = 3.2;   ///< … and wide
-    double min_roi_length_px = 25;  ///< … and so many px, since where a small vehicle lies is not known to the pixel
-    double min_roi_width_px = 11;
+    double min_roi_length_px = 28;  ///< … and so many px, since where a small vehicle lies is not known to the pixel
+    double min_roi_width_px = 12.5;
     double cluster_margin = 0.5;  ///< px by which the box of a cluster is grown on every side of its vectors
     GradientOptions gradient;     ///< what it says about components holds for every segmentation
     RelativeConnectivityOptions relative_connectivity;
