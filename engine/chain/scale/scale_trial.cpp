@@ -58,6 +58,9 @@ ScaleOutcome outcomeUnder(int count, const FrameOfLook& frame_of, const ChainOpt
 ChainOptions lookingOptions(const ChainOptions& options) {
     ChainOptions looking = options;
     looking.detection = DetectionOptions{};
+    // Scales are told apart by what each finds in search areas of the same size in metres.
+    looking.detection.min_roi_length_px = 0;
+    looking.detection.min_roi_width_px = 0;
     looking.detection.sliding_window.model = options.detection.sliding_window.model;
     return looking;
 }
