@@ -32,14 +32,14 @@ const std::vector<DetectionMethod>& allDetectionMethods();
 /// Parameters of detection in motion ROIs.
 struct DetectionOptions {
     DetectionMethod method = DetectionMethod::window_and_gradient;
-    double extend_along = 2.0;      ///< a cluster is extended by this factor along its motion
-    double extend_across = 1.25;    ///< … and by this one across it
-    double min_roi_length_m = 7;    ///< a search area is at least this long …
-    double min_roi_width_m = 3.2;   ///< … and wide
-    double min_roi_length_px = 28;  ///< … and so many px, since where a small vehicle lies is not known to the pixel
-    double min_roi_width_px = 12.5;
-    double cluster_margin = 0.5;  ///< px by which the box of a cluster is grown on every side of its vectors
-    GradientOptions gradient;     ///< what it says about components holds for every segmentation
+    double extend_along = 2.0;       ///< a cluster is extended by this factor along its motion
+    double extend_across = 1.25;     ///< … and by this one across it
+    double min_roi_length_m = 7;     ///< a search area is at least this long …
+    double min_roi_width_m = 3.2;    ///< … and wide
+    double min_roi_length_px = 28;   ///< … and so many px, since where a small vehicle lies is not known to the pixel
+    double min_roi_width_px = 12.5;  ///< … and wide
+    double cluster_margin = 0.5;     ///< px by which the box of a cluster is grown on every side of its vectors
+    GradientOptions gradient;        ///< what it says about components holds for every segmentation
     RelativeConnectivityOptions relative_connectivity;
     SlidingWindowOptions sliding_window;
     WindowAndGradientOptions window_and_gradient;

@@ -26,12 +26,15 @@ OrientedBox carried(OrientedBox box, cv::Point2d way, const Homography& map) {
 }
 
 /// Corners at the edge of what grows agree less at first, so it is followed in part from step to step.
-double growthOf(const BoxFlow& flow, const FollowOptions& options) {
-    constexpr double kAgreeingShare = 0.6;
+double growthOf(const BoxFlow& flow) {
     constexpr double kLargest = 1.15;
-    if (options.corners_to_grow < 1 || flow.box.area() < options.size_to_grow_px * options.size_to_grow_px) return 1;
-    if (flow.agreeing < options.corners_to_grow || flow.agreeing < kAgreeingShare * flow.corners) return 1;
     return std::clamp(flow.growth, 1 / kLargest, kLargest);
+}
+
+bool growsWith(const BoxFlow& flow, const FollowOptions& options) {
+    constexpr double kAgreeingShare = 0.6;
+    return options.corners_to_grow > 0 && flow.box.area() >= options.size_to_grow_px * options.size_to_grow_px &&
+           flow.agreeing >= std::max<double>(options.corners_to_grow, kAgreeingShare * flow.corners);
 }
 
 }  // namespace
@@ -60,13 +63,12 @@ BoxFollower::Step BoxFollower::advance(const cv::Mat& current, const cv::Mat& ne
         flowOf(current, next, box_, predicted, {options_.max_corners, options_.max_forward_backward_px});
     Step step;
     step.box = bestMatch(next, flow, predicted);
-    const double growth = growthOf(flow, options_);
+    step.by_corners = growsWith(flow, options_);
+    const double growth = step.by_corners ? growthOf(flow) : 1;
     step.box.length *= growth;
     step.box.width *= growth;
     growth_ = std::sqrt(growth_ * growth_ * growth);
     const Likeness likeness = likenessOf(next, step.box);
-    step.corners = flow.corners;
-    step.agreeing = flow.agreeing;
     const double corners = std::min(1.0, flow.agreeing / 4.0);
     step.certainty = std::clamp(
         0.55 * std::max(0.0, likeness.recent) + 0.25 * std::max(0.0, likeness.start) + 0.2 * corners, 0.0, 1.0);

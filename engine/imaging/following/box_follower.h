@@ -48,9 +48,8 @@ class BoxFollower {
 
     struct Step {
         OrientedBox box;
-        double certainty = 0;  ///< 0 … 1
-        int corners = 0;       ///< tracked inside the box
-        int agreeing = 0;      ///< those of them that move together
+        double certainty = 0;     ///< 0 … 1
+        bool by_corners = false;  ///< so many agree that the box grew or shrank with them
         std::optional<FollowEnd> end;
         bool hidden = false;  ///< it ends here, unless what waited is seen again
     };

@@ -17,8 +17,7 @@ constexpr int kSurelyDetected = 6;          ///< … and states in which it was 
 constexpr double kSureLooks = 0.78;         ///< certainty below which the pictures do not surely show it any more
 constexpr double kFairLooks = 0.55;         ///< that will do where many corners agree
 constexpr double kNearBy = 32;              ///< px, root of the area: so large a vehicle carries many corners …
-constexpr int kManyCorners = 12;            ///< … which are so many …
-constexpr double kAgreeingShare = 0.6;      ///< … and that share of all in the box
+constexpr int kManyCorners = 12;            ///< … which are so many
 constexpr double kSurelyMoves = 1.5;        ///< px/frame over the ground
 constexpr double kFollowedInImage = 0.9;    ///< share of the box that must lie in the image
 constexpr double kSlowestFollowed = 1;      ///< m/s at the end it is followed on from; what stands is known otherwise
@@ -127,12 +126,12 @@ class EndFollower {
     /// Many corners that move together over the ground are the vehicle's, however its looks and its way change on a
     /// bend or near by; what has slid off onto the ground moves with it.
     bool drivesBySight(const BoxFollower::Step& moved, const Homography& map) const {
-        const cv::Point2d before = map.applyToVector(state_.box.centre, follower_.usualVelocity());
+        const cv::Point2d before = map.applyToVector(state_.box.centre, cv::Point2d(state_.velocity) * way_);
         const cv::Point2d way = moved.box.centre - map.apply(state_.box.centre);
-        return moved.box.area() >= kNearBy * kNearBy && moved.agreeing >= kManyCorners &&
-               moved.agreeing >= kAgreeingShare * moved.corners &&
+        return moved.by_corners &&
                std::hypot(way.x, way.y) >= std::max(kSurelyMoves, 0.5 * std::hypot(before.x, before.y));
     }
+
     /// A box that lost its vehicle sticks to the ground, or is taken along by another.
     bool brakesTooHard(const OrientedBox& box, const Homography& map) {
         const cv::Point2d before = state_.box.centre;
