@@ -47,6 +47,30 @@ double between(cv::Point2d a, cv::Point2d b) {
     return std::hypot(a.x - b.x, a.y - b.y);
 }
 
+/// A round spot on grey, and how it moves.
+struct Spot {
+    cv::Point2d place;
+    cv::Point2d moved{0, 0};
+    double contrast = 1;
+};
+
+cv::Mat spotted(const std::vector<Spot>& spots) {
+    cv::Mat picture(kPicture, CV_64FC1, cv::Scalar(60));
+    constexpr int kReach = 6;
+    for (const Spot& spot : spots) {
+        const cv::Point2d at = spot.place + spot.moved;
+        for (int y = cvRound(at.y) - kReach; y <= cvRound(at.y) + kReach; ++y) {
+            for (int x = cvRound(at.x) - kReach; x <= cvRound(at.x) + kReach; ++x) {
+                const cv::Point2d away = cv::Point2d(x, y) - at;
+                picture.at<double>(y, x) += 180 * spot.contrast * std::exp(-away.dot(away) / 2);
+            }
+        }
+    }
+    cv::Mat bytes;
+    picture.convertTo(bytes, CV_8U);
+    return bytes;
+}
+
 TEST(BoxFlow, IsTheMotionOfThePictureInsideTheBox) {
     for (const double turn : {0.0, 0.06, -0.06}) {
         for (const cv::Point2d shift : {cv::Point2d(0, 0), {3.5, -2.25}, {-1.75, 4}}) {
@@ -133,6 +157,75 @@ TEST(BoxFlow, FourCornersTellNoTurn) {
     EXPECT_NEAR(flowOf(ground(), next, standingBox(), standingBox(), {.max_corners = 12}).box.heading, 0.35, 0.02);
 }
 
+TEST(BoxFlow, FiveCornersTellATurn) {
+    const cv::Mat next = movedBy(ground(), motion(0.05, 1, {2, 1}));
+    const BoxFlow flow = flowOf(ground(), next, standingBox(), standingBox(), {.max_corners = 5});
+    ASSERT_EQ(flow.agreeing, 5);
+    EXPECT_NEAR(flow.box.heading, 0.35, 0.02);
+}
+
+TEST(BoxFlow, TellsHowWhatItLiesOnGrowsBeyondThePrediction) {
+    for (const double scale : {0.95, 1.0, 1.06}) {
+        const cv::Mat next = movedBy(ground(), motion(0.02, scale, {1, 2}));
+        EXPECT_NEAR(flowOf(ground(), next, standingBox(), standingBox(), {}).growth, scale, 0.005);
+        const OrientedBox predicted{{121, 92}, 40 * scale, 24 * scale, 0.32};
+        EXPECT_NEAR(flowOf(ground(), next, standingBox(), predicted, {}).growth, 1, 0.005) << scale;
+    }
+}
+
+TEST(BoxFlow, NeedsSixteenPixelsOfPicture) {
+    const OrientedBox small{{8, 8}, 12, 10, 0};
+    const auto corners = [&](cv::Size size) {
+        const cv::Mat picture = ground()(cv::Rect({100, 80}, size));
+        return flowOf(picture, picture, small, small, {}).corners;
+    };
+    EXPECT_GT(corners({16, 90}), 0);
+    EXPECT_EQ(corners({15, 90}), 0);
+    EXPECT_GT(corners({90, 16}), 0);
+    EXPECT_EQ(corners({90, 15}), 0);
+}
+
+TEST(BoxFlow, FollowsCornersWellWithinTheBoxAndNotMuchFainterThanTheClearest) {
+    const OrientedBox box{{120, 90}, 80, 60, 0};
+    const auto corners = [&](const std::vector<Spot>& spots) {
+        const cv::Mat picture = spotted(spots);
+        return flowOf(picture, picture, box, box, {}).corners;
+    };
+    const Spot clear{{110, 90}};
+    EXPECT_EQ(corners({clear}), 1);
+    EXPECT_EQ(corners({clear, {{157, 90}}, {{83, 90}}, {{120, 117}}, {{120, 63}}}), 5) << "37 px along, 27 across";
+    EXPECT_EQ(corners({clear, {{159, 90}}, {{81, 90}}, {{120, 119}}, {{120, 61}}}), 1)
+        << "the last twentieth is spared";
+    // A fiftieth of how clear the clearest is, which goes with the square of the contrast.
+    EXPECT_EQ(corners({clear, {{130, 90}, {}, 0.16}}), 2);
+    EXPECT_EQ(corners({clear, {{130, 90}, {}, 0.12}}), 1);
+}
+
+TEST(BoxFlow, WhatMovesOtherwiseByHalfAPixelDoesNotAgreeInALargeBoxByAPixel) {
+    const auto agreeing = [](const OrientedBox& box, double other_by) {
+        std::vector<Spot> spots;
+        for (int i = 0; i < 12; ++i) {
+            const double along = box.length * (i % 4 - 1.5) / 5, across = box.width * (i / 4 - 1) / 3.5;
+            spots.push_back({box.centre + cv::Point2d(along, across)});
+        }
+        const cv::Mat current = spotted(spots);
+        for (Spot& spot : spots) spot.moved = {1, 0.5};
+        spots[5].moved += cv::Point2d(0, other_by);
+        spots[6].moved += cv::Point2d(0, -other_by);
+        const BoxFlow flow = flowOf(current, spotted(spots), box, box, {});
+        EXPECT_EQ(flow.corners, 12) << other_by;
+        EXPECT_LT(between(flow.box.centre, box.centre + cv::Point2d(1, 0.5)), 0.15) << other_by;
+        return flow.agreeing;
+    };
+    const OrientedBox car{{120, 90}, 48, 36, 0};      // 2 % of the root of the area are less than a pixel
+    const OrientedBox lorry{{120, 90}, 140, 100, 0};  // … are 2.4 px
+    EXPECT_EQ(agreeing(car, 0), 12);
+    EXPECT_EQ(agreeing(car, 0.38), 12);
+    EXPECT_EQ(agreeing(car, 0.65), 10);
+    EXPECT_EQ(agreeing(lorry, 1.0), 12);
+    EXPECT_EQ(agreeing(lorry, 1.5), 10);
+}
+
 TEST(CameraAroundABox, IsTheMotionOfTheGroundWhateverTheBoxDoes) {
     for (const auto& [turn, scale, shift] : {std::tuple(0.0, 1.0, cv::Point2d(3, -2)),
                                              {0.02, 1.0, cv::Point2d(-2, 1)},
@@ -166,7 +259,34 @@ TEST(CameraAroundABox, IsTakenToStandWhereNothingCanBeFollowed) {
     EXPECT_TRUE(stands(ground()(narrow), next(narrow), {{15, 90}, 4, 4, 0}));
     const cv::Rect low(0, 0, 240, 31);
     EXPECT_TRUE(stands(ground()(low), next(low), {{120, 15}, 4, 4, 0}));
+    const cv::Rect wide_enough(0, 0, 32, 180);
+    EXPECT_FALSE(stands(ground()(wide_enough), next(wide_enough), {{15, 90}, 4, 4, 0}));
+    const cv::Rect high_enough(0, 0, 240, 32);
+    EXPECT_FALSE(stands(ground()(high_enough), next(high_enough), {{120, 15}, 4, 4, 0}));
     EXPECT_FALSE(stands(ground(), next, standingBox()));
+}
+
+TEST(CameraAroundABox, IsToldByTwelveCornersWithinEightyPixelsAndNotNextToTheBox) {
+    const OrientedBox box{{120, 90}, 20, 20, 0};
+    const auto isTold = [&](cv::Point2d twelfth) {
+        std::vector<Spot> spots;
+        for (int i = 0; i < 11; ++i) spots.push_back({{60.0 + 12 * i, i % 2 == 0 ? 50.0 : 130.0}});
+        spots.push_back({twelfth});
+        const cv::Mat current = spotted(spots);
+        for (Spot& spot : spots) spot.moved = {1.5, -0.5};
+        const Homography map = cameraAround(current, spotted(spots), box);
+        if (map.matrix == cv::Matx33d::eye()) return false;
+        EXPECT_LT(between(map.apply(box.centre), {121.5, 89.5}), 0.1);
+        return true;
+    };
+    EXPECT_TRUE(isTold({60, 100}));
+    EXPECT_FALSE(isTold({120, 90})) << "the box itself";
+    EXPECT_FALSE(isTold({131, 90}));
+    EXPECT_TRUE(isTold({136, 90})) << "beyond 1.3 times its size";
+    EXPECT_TRUE(isTold({39, 90}));
+    EXPECT_FALSE(isTold({26, 90})) << "too far away";
+    EXPECT_TRUE(isTold({201, 90}));
+    EXPECT_FALSE(isTold({214, 90}));
 }
 
 }  // namespace
