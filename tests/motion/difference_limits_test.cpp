@@ -9,13 +9,16 @@ namespace {
 struct LeapingSquare {
     int side;
     int brighter;
+    int uneven = 0;  ///< every other column is so much brighter still, the others less
 };
 
 /// Pixels that the difference of two pictures says to move, all that moved being in view twice; one parameter set by
 /// its name.
-int movingWith(const std::string& name, const std::string& value, const std::vector<LeapingSquare>& squares) {
+int movingWith(const std::string& name, const std::string& value, const std::vector<LeapingSquare>& squares,
+               MotionMethod method = MotionMethod::two_frame_difference) {
     DifferenceOptions options;
-    options.method = MotionMethod::two_frame_difference;
+    options.method = method;
+    options.ghost_gradient = 255;
     options.gap = 1;
     options.blur = 0;
     options.min_contrast = 10;
@@ -31,7 +34,10 @@ int movingWith(const std::string& name, const std::string& value, const std::vec
         frame.gray = cv::Mat(100, 200, CV_8UC1, cv::Scalar(100));
         for (std::size_t k = 0; k < squares.size(); ++k) {
             const cv::Rect place(10 + 60 * i, 10 + 40 * static_cast<int>(k), squares[k].side, squares[k].side);
-            frame.gray(place).setTo(100 + squares[k].brighter);
+            for (int x = place.x; x < place.br().x; ++x) {
+                const int uneven = x % 2 == 0 ? squares[k].uneven : -squares[k].uneven;
+                frame.gray(cv::Rect(x, place.y, 1, place.height)).setTo(100 + squares[k].brighter + uneven);
+            }
         }
         FrameMotion motion;
         motion.frame = i;
@@ -49,6 +55,15 @@ int movingWith(const std::string& name, const std::string& value, const std::vec
 TEST(DifferenceLimits, BlurTakesAwaySpecks) {
     EXPECT_EQ(movingWith("difference.blur", "0", {{1, 60}}), 2) << "where it was and where it is";
     EXPECT_EQ(movingWith("difference.blur", "2", {{1, 60}}), 0) << "60 / (2π · 4) is less than 10";
+}
+
+TEST(DifferenceLimits, WhatAVehicleHasLeftIsEvenerThanAVehicle) {
+    const auto left = [](const std::string& deviation) {
+        return movingWith("difference.ghost_deviation", deviation, {{8, 50, 10}}, MotionMethod::difference_ghosts);
+    };
+    EXPECT_EQ(left("0"), 2 * 64) << "where it was and where it is";
+    EXPECT_EQ(left("9.9"), 64);
+    EXPECT_EQ(left("10.1"), 0) << "as even as the vehicle itself";
 }
 
 TEST(DifferenceLimits, StrongLimitIsUpToWhichOtsusThresholdIsFollowed) {

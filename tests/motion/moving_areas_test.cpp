@@ -303,10 +303,10 @@ TEST(MovingAreas, OfVeryManyOnlyTheLargestAreLookedAt) {
             const int thing = static_cast<int>(from.y / kSpacing) * kColumns + static_cast<int>(from.x / kSpacing);
             (isSmall(thing) ? small : large).insert(thing);
         }
-        return std::pair(large.size(), small.size());
+        return std::tuple(large.size(), small.size(), *large.rbegin());
     };
-    EXPECT_EQ(seenOf(1490), std::pair(std::size_t{1480}, std::size_t{10}));
-    EXPECT_EQ(seenOf(1510), std::pair(std::size_t{1500}, std::size_t{0}));
+    EXPECT_EQ(seenOf(1490), std::tuple(1480U, 10U, 1489));
+    EXPECT_EQ(seenOf(1520), std::tuple(1500U, 0U, 1509)) << "of equally large ones the upper";
 }
 
 TEST(MovingAreas, TheGapIsATimeInFrames) {
