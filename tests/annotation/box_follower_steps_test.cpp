@@ -305,6 +305,20 @@ TEST(BoxFollowerSteps, TheLookTellsTurnsThatFewCornersDoNot) {
     }
 }
 
+TEST(BoxFollowerSteps, LongBoxesTurnByWhatMovesTheirEnds) {
+    OrientedBox lorry = kStart;
+    lorry.length = 100;
+    FollowOptions options = endless();
+    options.max_corners = 4;
+    const cv::Mat coarse = ground(3);
+    for (const double turn : {0.07, -0.07}) {
+        const cv::Mat next = moved(coarse, motion(turn, 1, {0, 0}));
+        ASSERT_EQ(flowOf(coarse, next, lorry, lorry, {.max_corners = 4}).box.heading, 0.3);
+        BoxFollower follower(lorry, coarse, options);
+        EXPECT_NEAR(follower.advance(coarse, next, {}).box.heading, 0.3 + turn, 0.006) << turn;
+    }
+}
+
 TEST(BoxFollowerSteps, GrowsWithCornersByTheRootInEachStep) {
     FollowOptions options = endless();
     options.corners_to_grow = 10;
