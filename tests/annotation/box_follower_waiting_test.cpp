@@ -146,8 +146,8 @@ TEST(BoxFollowerWaiting, IsWaitedForWhereItLastLookedLikeItself) {
 TEST(BoxFollowerWaiting, TheLookDecidesBetweenCornersAndPrediction) {
     // Three marks, whose corners are the clearest, move within what stands.
     const OrientedBox box{{120, 90}, 90, 60, 0};
-    const auto picture = [](cv::Point by) {
-        cv::Mat made = test::groundTexture(kPicture, 5, 0.9, -20, 275);
+    const auto picture = [](cv::Point by, double contrast) {
+        cv::Mat made = test::groundTexture(kPicture, 5, 0.9, 128 - contrast, 128 + contrast);
         for (const cv::Point place : {cv::Point(94, 74), {140, 80}, {112, 100}}) {
             cv::Mat mark = made(cv::Rect(place + by, cv::Size(8, 8)));
             mark.setTo(0);
@@ -156,15 +156,28 @@ TEST(BoxFollowerWaiting, TheLookDecidesBetweenCornersAndPrediction) {
         }
         return made;
     };
-    FollowOptions options;
+    FollowOptions options = strict();
     options.max_corners = 3;
-    const cv::Mat next = picture({4, 3});
-    EXPECT_LT(between(flowOf(picture({0, 0}), next, box, box, {.max_corners = 3}).box.centre, {124, 93}), 0.5);
-    BoxFollower follower(box, picture({0, 0}), options);
-    follower.startsWith({0, 0});
-    const BoxFollower::Step step = follower.advance(picture({0, 0}), next, {});
-    EXPECT_FALSE(step.end);
-    EXPECT_LT(between(step.box.centre, box.centre), 0.3);
+    const cv::Size samples = BoxPatch::samplesFor(box);
+    int stayed = 0, went = 0, a_little_better = 0;
+    for (int contrast = 68; contrast <= 79; ++contrast) {
+        const cv::Mat current = picture({0, 0}, contrast), next = picture({4, 3}, contrast);
+        const BoxPatch look(current, box, samples);
+        // Before the speed is known corners are believed.
+        const OrientedBox by_corners = BoxFollower(box, current, options).advance(current, next, {}).box;
+        EXPECT_LT(between(by_corners.centre, {124, 93}), 1.5) << contrast;
+        BoxFollower follower(box, current, options);
+        follower.startsWith({0, 0});
+        const cv::Point2d centre = follower.advance(current, next, {}).box.centre;
+        const double better =
+            BoxPatch(next, box, samples).correlation(look) - BoxPatch(next, by_corners, samples).correlation(look);
+        EXPECT_EQ(between(centre, box.centre) < 1, better > 0.05) << contrast << " " << better;
+        a_little_better += better > 0 && better < 0.05;
+        (better > 0.05 ? stayed : went)++;
+    }
+    EXPECT_GE(stayed, 3);
+    EXPECT_GE(went, 3);
+    EXPECT_GE(a_little_better, 2);
 }
 
 }  // namespace eyrie::box_follower_waiting_test
