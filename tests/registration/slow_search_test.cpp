@@ -337,4 +337,33 @@ TEST(SlowSearch, CoarseRegistrationDescendsThePyramid) {
     EXPECT_GT(found_none, 5);
 }
 
+TEST(SlowSearch, WhatAThirdOfThePlacesAgreeOnIsNotLookedFurtherFor) {
+    // The upper part of the picture goes with the first prediction, the rest with the second.
+    const cv::Size size(256, 192);
+    const ImagePyramid from = pyramidOf(size, cv::Matx33d::eye(), 56);
+    const auto places = CornerDetector({}, test::scaleOf(0.12)).detect(from.level(0), {});
+    CornerSet corners;
+    for (std::size_t i = 0; i < places.size(); ++i)
+        corners.corners.push_back(cornerAt(CornerId(i + 1), places[i], true, float(i * 7 % 10) * 0.01F));
+    const cv::Matx33d first = test::cameraMotion(size, 1, -1, 0), second = test::cameraMotion(size, 22, 12, 0);
+    const cv::Mat other = grayOf(pyramidOf(size, second, 56).level(0));
+    const HomographyEstimator estimator({}, size);
+    int stayed = 0, looked_further = 0;
+    for (int rows = 44; rows <= 100; rows += 4) {
+        cv::Mat picture = other.clone();
+        const cv::Rect upper(0, 0, size.width, rows);
+        grayOf(pyramidOf(size, first, 56).level(0))(upper).copyTo(picture(upper));
+        ImagePyramid to;
+        to.build(picture);
+        const std::vector<cv::Matx33d> predictions{first, second};
+        const auto found = CoarseRegistration(estimator, false).find(corners, from, to, predictions, 2);
+        const auto slow = SlowCoarse{estimator, corners, from, to, 2, false}.find(predictions);
+        ASSERT_TRUE(found && slow) << rows;
+        EXPECT_LT(test::gridError(found->matrix, slow->matrix, size), 2e-3) << rows;
+        (test::gridError(found->matrix, first, size) < 1 ? stayed : looked_further)++;
+    }
+    EXPECT_GE(stayed, 3);
+    EXPECT_GE(looked_further, 3);
+}
+
 }  // namespace eyrie::slow_search_test
