@@ -186,7 +186,8 @@ TEST(SlowSearch, FeaturesAreThoseThatAreMutuallyNearest) {
     } cases[] = {{{200, 150}, {20, -12, 31}, 2}, {{200, 150}, {20, -12, 31}, 9}, {{200, 150}, {20, -12, 31}, 16},
                  {{200, 150}, {60, 30, -17}, 2}, {{200, 150}, {90, 60, 5}, 2},   {{120, 100}, {10, 6, 12}, 2},
                  {{150, 64}, {4, 6, 3}, 1},      {{150, 63}, {4, 6, 3}, 1},      {{1101, 130}, {9, 3, 1}, 0},
-                 {{1100, 64}, {9, 3, 1}, 0},     {{200, 150}, {500, 0, 0}, 2}};
+                 {{1100, 64}, {9, 3, 1}, 0},     {{200, 150}, {500, 0, 0}, 2},   {{64, 150}, {6, 4, 3}, 1},
+                 {{63, 150}, {6, 4, 3}, 1}};
     int found_some = 0;
     for (const auto& one : cases) {
         const HomographyEstimator estimator({}, one.size);
@@ -212,6 +213,15 @@ TrackedCorner cornerAt(CornerId id, cv::Point2f at, bool on_background, float va
     corner.on_background = on_background;
     corner.position_variance = variance;
     return corner;
+}
+
+/// Every third was never of the background.
+CornerSet cornersOf(const ImagePyramid& pyramid) {
+    const auto places = CornerDetector({}, test::scaleOf(0.12)).detect(pyramid.level(0), {});
+    CornerSet corners;
+    for (std::size_t i = 0; i < places.size(); ++i)
+        corners.corners.push_back(cornerAt(CornerId(i + 1), places[i], i % 3 > 0, float(i * 7 % 10) * 0.01F));
+    return corners;
 }
 
 /// Coarse registration told once more, with every place looked at one by one.
@@ -307,10 +317,7 @@ TEST(SlowSearch, CoarseRegistrationDescendsThePyramid) {
     int found_some = 0, found_none = 0;
     for (const cv::Size size : {cv::Size(256, 192), cv::Size(90, 120), cv::Size(40, 46)}) {
         const ImagePyramid from = pyramidOf(size, cv::Matx33d::eye(), 56);
-        const auto places = CornerDetector({}, test::scaleOf(0.12)).detect(from.level(0), {});
-        CornerSet corners;
-        for (std::size_t i = 0; i < places.size(); ++i)
-            corners.corners.push_back(cornerAt(CornerId(i + 1), places[i], i % 3 > 0, float(i * 7 % 10) * 0.01F));
+        const CornerSet corners = cornersOf(from);
         for (const auto& motion : {cv::Vec3d(1, -1, 0.3), cv::Vec3d(5, -3, 1), cv::Vec3d(18, 12, 4),
                                    cv::Vec3d(-30, 40, -8), cv::Vec3d(12, 9, 35), cv::Vec3d(900, 0, 0)}) {
             const ImagePyramid to =
@@ -341,10 +348,7 @@ TEST(SlowSearch, WhatAThirdOfThePlacesAgreeOnIsNotLookedFurtherFor) {
     // The upper part of the picture goes with the first prediction, the rest with the second.
     const cv::Size size(256, 192);
     const ImagePyramid from = pyramidOf(size, cv::Matx33d::eye(), 56);
-    const auto places = CornerDetector({}, test::scaleOf(0.12)).detect(from.level(0), {});
-    CornerSet corners;
-    for (std::size_t i = 0; i < places.size(); ++i)
-        corners.corners.push_back(cornerAt(CornerId(i + 1), places[i], true, float(i * 7 % 10) * 0.01F));
+    const CornerSet corners = cornersOf(from);
     const cv::Matx33d first = test::cameraMotion(size, 1, -1, 0), second = test::cameraMotion(size, 22, 12, 0);
     const cv::Mat other = grayOf(pyramidOf(size, second, 56).level(0));
     const HomographyEstimator estimator({}, size);
@@ -364,6 +368,31 @@ TEST(SlowSearch, WhatAThirdOfThePlacesAgreeOnIsNotLookedFurtherFor) {
     }
     EXPECT_GE(stayed, 3);
     EXPECT_GE(looked_further, 3);
+}
+
+TEST(SlowSearch, AMotionBetweenThatOfTwoCrowdsPleasesNeither) {
+    // Bands of the picture move by a pixel or so more than the others.
+    const cv::Size size(256, 192);
+    const ImagePyramid from = pyramidOf(size, cv::Matx33d::eye(), 56);
+    const CornerSet corners = cornersOf(from);
+    const cv::Matx33d ground = test::cameraMotion(size, 1, -1, 0);
+    const HomographyEstimator estimator({}, size);
+    for (const double apart : {0.9, 1.1, 1.3, 1.5, 1.8, 2.2}) {
+        const cv::Mat crowd = grayOf(pyramidOf(size, test::cameraMotion(size, 1 + apart, -1, 0), 56).level(0));
+        cv::Mat picture = grayOf(pyramidOf(size, ground, 56).level(0)).clone();
+        for (const int row : {30, 110}) {
+            const cv::Rect band(0, row, size.width, 42);
+            crowd(band).copyTo(picture(band));
+        }
+        ImagePyramid to;
+        to.build(picture);
+        const auto found = CoarseRegistration(estimator, false).find(corners, from, to, {ground}, 2);
+        const auto slow = SlowCoarse{estimator, corners, from, to, 2, false}.find({ground});
+        ASSERT_EQ(found.has_value(), slow.has_value()) << apart;
+        if (!found) continue;
+        EXPECT_LT(test::gridError(found->matrix, slow->matrix, size), 2e-3) << apart;
+        EXPECT_LT(test::gridError(found->matrix, ground, size), apart > 1.2 ? 0.35 : 1) << apart;
+    }
 }
 
 }  // namespace eyrie::slow_search_test
