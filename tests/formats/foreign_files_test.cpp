@@ -244,6 +244,9 @@ TEST_F(ForeignFiles, UavdtSaysWhatItCannotCarry) {
     EXPECT_THAT(remarks, Contains(HasSubstr("1 box partly occluded became medium occlusion")));
     EXPECT_THAT(remarks, Contains(HasSubstr("1 box reaching beyond the image")));
     EXPECT_THAT(remarks, Contains(HasSubstr("written as in view (1)")));
+    labels.boxes[0] = {boxOf(0, 1, {{50, 50}, 20, 10, 0}, "")};
+    labels.boxes[0][0].ignore = true;
+    EXPECT_TRUE(writeLabels(labels, folder_ / "areas_gt.txt", "uavdt").notes.empty()) << "areas are not in view";
 }
 
 TEST_F(ForeignFiles, SkewedOutlinesTakeTheRectangleThatFitsBest) {

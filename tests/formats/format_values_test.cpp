@@ -66,6 +66,11 @@ TEST_F(FormatValues, CornersBeginAtTheFrontLeft) {
     EXPECT_EQ(dota.gsd_m, 0.2);
     EXPECT_TRUE(dota.boxes.at(0)[0].ignore);
     EXPECT_EQ(dota.boxes.at(0)[0].object_class, "small-vehicle");
+    const auto gsdOf = [&](const std::string& gsd) {
+        return read("P1.txt", "gsd:" + gsd + "\n20 50 10 50 10 20 20 20 ship 1\n", "dota").gsd_m;
+    };
+    EXPECT_EQ(gsdOf("999.5"), 999.5);
+    for (const char* none : {"1000", "0", "-0.2", "null"}) EXPECT_EQ(gsdOf(none), std::nullopt) << none;
     expectBox(read("P2.txt", "20.0,50.0,10.0,50.0,10.0,20.0,20.0,20.0,car,0\n", "dota").boxes.at(0)[0].box, 14.5, 34.5,
               30, 10, 90);
     ImportOptions options;
@@ -86,6 +91,10 @@ TEST_F(FormatValues, FramesOfImageTextsFollowTheImages) {
     EXPECT_TRUE(readLabels(folder_ / "set").boxes.contains(2));
     writeText(folder_ / "numbers" / "labelTxt" / "f_013.txt", "0 0 1 0 1 1 0 1 car 0\n");
     EXPECT_TRUE(readLabels(folder_ / "numbers").boxes.contains(13));
+    writeText(folder_ / "long" / "labelTxt" / "f_000000013.txt", "0 0 1 0 1 1 0 1 car 0\n");
+    EXPECT_TRUE(readLabels(folder_ / "long").boxes.contains(13));
+    writeText(folder_ / "times" / "labelTxt" / "f_0000000013.txt", "0 0 1 0 1 1 0 1 car 0\n");
+    EXPECT_TRUE(readLabels(folder_ / "times").boxes.contains(0)) << "ten digits are a time";
     writeText(folder_ / "set" / "labelTxt" / "g.txt", "");
     EXPECT_THAT(test::messageOf([&] { readLabels(folder_ / "set"); }),
                 HasSubstr("g.txt: there is no image of this name"));

@@ -316,6 +316,8 @@ TEST(ObjectsByHand, AnAreaThatRestsAFrameOrChangesIsAnotherRegion) {
     const OrientedBox box{{20, 20}, 10, 8, 0};
     EXPECT_EQ(regionsOf({{0, box}, {1, box}, {2, box}}).size(), 1U);
     EXPECT_EQ(regionsOf({{0, box}, {2, box}}).size(), 2U);
+    const OrientedBox beside{{200, 20}, 9, 9, 0};
+    EXPECT_EQ(regionsOf({{0, box}, {1, box}, {1, beside}}).size(), 2U) << "one that begins after one that goes on";
     EXPECT_EQ(regionsOf({{0, box}, {0, box}, {1, box}, {1, box}}).size(), 2U) << "two at one place are two";
     for (const OrientedBox& other :
          {OrientedBox{{21, 20}, 10, 8, 0}, {{20, 20}, 11, 8, 0}, {{20, 20}, 10, 9, 0}, {{20, 20}, 10, 8, 0.1}})
