@@ -186,8 +186,8 @@ TEST(SlowSearch, FeaturesAreThoseThatAreMutuallyNearest) {
     } cases[] = {{{200, 150}, {20, -12, 31}, 2}, {{200, 150}, {20, -12, 31}, 9}, {{200, 150}, {20, -12, 31}, 16},
                  {{200, 150}, {60, 30, -17}, 2}, {{200, 150}, {90, 60, 5}, 2},   {{120, 100}, {10, 6, 12}, 2},
                  {{150, 64}, {4, 6, 3}, 1},      {{150, 63}, {4, 6, 3}, 1},      {{1101, 130}, {9, 3, 1}, 0},
-                 {{1100, 64}, {9, 3, 1}, 0},     {{200, 150}, {500, 0, 0}, 2},   {{64, 150}, {6, 4, 3}, 1},
-                 {{63, 150}, {6, 4, 3}, 1}};
+                 {{1100, 64}, {9, 3, 1}, 0},     {{200, 150}, {500, 0, 0}, 2},   {{64, 900}, {2, 1, 0.2}, 0},
+                 {{63, 900}, {2, 1, 0.2}, 0}};
     int found_some = 0;
     for (const auto& one : cases) {
         const HomographyEstimator estimator({}, one.size);
@@ -196,6 +196,7 @@ TEST(SlowSearch, FeaturesAreThoseThatAreMutuallyNearest) {
             one.size, test::cameraMotion(one.size, one.motion[0], one.motion[1], one.motion[2], 1.02), 55, one.noise);
         const auto found = searchFeatures(from, to, estimator), slow = slowFeatures(from, to, estimator);
         ASSERT_EQ(found.has_value(), slow.has_value()) << one.size << one.motion;
+        EXPECT_TRUE(found || one.size != cv::Size(64, 900));
         if (!found) continue;
         ++found_some;
         EXPECT_LT(test::gridError(found->matrix, slow->matrix, one.size), 0.05) << one.size << one.motion;

@@ -271,6 +271,7 @@ TEST(SlowVectors, CornersMoveByWhatEveryPictureSaysOfThem) {
         options.follow_turns = variant != 7;
         options.local_background.local_background = variant % 4 == 2 || variant == 12;
         options.local_background.local_background_min_corners = variant == 2 ? 12 : 30;
+        if (variant == 12) options.local_background.local_background_cell_m = 100;
         options.max_speed_m_s = variant == 8 ? 12 : variant == 9 ? 0 : 70;
         options.min_speed_px = variant == 10 ? 0.3 : 0.05;
         const SceneScale scale{variant == 11 ? 0.8 : 0.3, 25, variant != 6};
