@@ -1,0 +1,112 @@
+#include <gtest/gtest.h>
+
+#include "chain/chain.h"
+#include "chain/scale/scale_trial.h"
+#include "chain/scale/slope_estimation.h"
+#include "core/robust_statistics.h"
+#include "support/moving_scene.h"
+
+/// Which frames are looked at for the scale, and what of them counts.
+namespace eyrie::scale_looks_test {
+namespace {
+
+test::MemorySource sceneOf(int frames, cv::Size size = {160, 120}) {
+    test::MovingScene scene;
+    scene.frames = frames;
+    scene.size = size;
+    scene.vehicles = {{{60, 70}, {1.6, 0.3}, {24, 11}}};
+    return test::MemorySource(scene);
+}
+
+/// Frames that a look for a slope reads, and says that it may read.
+std::pair<std::size_t, int> looksForASlope(int frames, FrameRange range = {}) {
+    test::MemorySource source = sceneOf(frames, {64, 48});
+    std::vector<RunProgress> told;
+    estimateSlope(source, range, ChainOptions{}, SceneScale{0.2, 25, true}, {},
+                  [&](const RunProgress& progress) { told.push_back(progress); });
+    return {told.size(), told.empty() ? 0 : told.front().frames_total};
+}
+
+}  // namespace
+
+TEST(ScaleLooks, EndWithTheRangeOrTheVideo) {
+    const test::MemorySource source = sceneOf(20);
+    EXPECT_EQ(lastOfLook(source, {0, -1}), 19);
+    EXPECT_EQ(lastOfLook(source, {0, 0}), 0);
+    EXPECT_EQ(lastOfLook(source, {3, 7}), 7);
+    EXPECT_EQ(lastOfLook(source, {7, 7}), 7);
+    EXPECT_EQ(lastOfLook(source, {19, 99}), 19);
+    EXPECT_FALSE(lastOfLook(source, {20, 99}));
+    EXPECT_FALSE(lastOfLook(source, {8, 7}));
+    EXPECT_FALSE(lastOfLook(source, {-1, 7}));
+}
+
+TEST(ScaleLooks, ForASlopeTakeTheStartTheMiddleAndTheEndOfAVideo) {
+    EXPECT_EQ(looksForASlope(35), std::pair(std::size_t{34}, 35)) << "what was looked at is not looked at again";
+    EXPECT_EQ(looksForASlope(68), std::pair(std::size_t{68}, 68)) << "the start and the end";
+    EXPECT_EQ(looksForASlope(120), std::pair(std::size_t{102}, 102));
+    EXPECT_EQ(looksForASlope(60, {10, 49}), std::pair(std::size_t{34}, 40));
+}
+
+TEST(ScaleLooks, CountWhatTheChainFindsAndTracksThatHaveSettled) {
+    ChainOptions options = lookingOptions({});
+    const SceneScale scale{0.2, 25, false};
+    test::MemorySource source = sceneOf(30);
+    const auto outcomeOf = [&](int count) {
+        int told = 0;
+        const auto outcome = outcomeUnder(
+            count, [&](int i) { return source.read(i, false); }, options, scale, {}, [&] { ++told; });
+        EXPECT_EQ(told, count);
+        return outcome;
+    };
+    Chain chain(options, scale);
+    double detections = 0, whole = 0, decision = 0;
+    std::map<TrackId, std::pair<std::vector<double>, std::vector<double>>> sizes;
+    for (int i = 0; i < 30; ++i) {
+        const FrameResult result = chain.next(source.read(i, false));
+        for (const Detection& detection : result.detections) {
+            ++detections;
+            whole += detection.complete;
+            decision += detection.complete ? detection.score : 0;
+        }
+        for (const auto& track : result.tracks) {
+            if (i < 14 || track.status != TrackStatus::confirmed) continue;
+            sizes[track.id].first.push_back(0.2 * track.box.length);
+            sizes[track.id].second.push_back(0.2 * track.box.width);
+        }
+    }
+    double tracks = 0, cars = 0;
+    for (const auto& [id, of_track] : sizes) {
+        if (of_track.first.size() < 8) continue;
+        ++tracks;
+        cars += isCarSized(medianOf(of_track.first), medianOf(of_track.second));
+    }
+    const ScaleOutcome outcome = outcomeOf(30);
+    EXPECT_GT(outcome.detections, 10);
+    EXPECT_EQ(outcome.detections, detections);
+    EXPECT_EQ(outcome.looks, whole);
+    EXPECT_NEAR(outcome.decision, decision, 1e-9);
+    EXPECT_EQ(outcome.tracks, tracks);
+    EXPECT_EQ(outcome.cars, cars);
+    EXPECT_GE(outcome.tracks, 1);
+    EXPECT_GE(outcomeOf(22).tracks, 1) << "eight frames from the fifteenth on";
+    EXPECT_EQ(outcomeOf(21).tracks, 0);
+    std::stop_source stopped;
+    stopped.request_stop();
+    const auto frame_of = [&](int i) { return source.read(i, false); };
+    EXPECT_EQ(outcomeUnder(30, frame_of, options, scale, stopped.get_token(), [] {}).detections, 0);
+}
+
+TEST(ScaleLooks, SearchAreasHaveTheSameSizeInMetresAtAnyScale) {
+    ChainOptions options;
+    options.detection.min_roi_length_px = options.detection.min_roi_width_px = 77;
+    options.detection.method = DetectionMethod::gradient;
+    options.detection.sliding_window.model = "own.eyriemodel";
+    const ChainOptions looking = lookingOptions(options);
+    EXPECT_EQ(looking.detection.min_roi_length_px, 0);
+    EXPECT_EQ(looking.detection.min_roi_width_px, 0);
+    EXPECT_EQ(looking.detection.method, DetectionOptions().method) << "whatever the run is to use";
+    EXPECT_EQ(looking.detection.sliding_window.model, "own.eyriemodel");
+}
+
+}  // namespace eyrie::scale_looks_test
