@@ -226,6 +226,38 @@ TEST(BoxFlow, WhatMovesOtherwiseByHalfAPixelDoesNotAgreeInALargeBoxByAPixel) {
     EXPECT_EQ(agreeing(lorry, 1.5), 10);
 }
 
+TEST(BoxFlow, WhereAllMoveUnevenlyTwoAndAHalfTimesTheUsualAgrees) {
+    const OrientedBox car{{120, 90}, 56, 48, 0};
+    const auto agreeing = [&](double usual, double of_one) {
+        std::vector<Spot> spots;
+        for (int i = 0; i < 16; ++i) spots.push_back({{99.0 + 14 * (i % 4), 72.0 + 12 * (i / 4)}});
+        const cv::Mat current = spotted(spots);
+        // In turn to the one side and the other, which no turn and no growth explains.
+        for (int i = 0; i < 16; ++i) spots[std::size_t(i)].moved.y = (i + i / 4) % 2 == 0 ? usual : -usual;
+        spots[5].moved.y = of_one;
+        spots[6].moved.y = -of_one;
+        const BoxFlow flow = flowOf(current, spotted(spots), car, car, {});
+        EXPECT_EQ(flow.corners, 16);
+        return flow.agreeing;
+    };
+    EXPECT_EQ(agreeing(0.3, 0.68), 16);
+    EXPECT_EQ(agreeing(0.3, 0.9), 14);
+    EXPECT_EQ(agreeing(0.9, 1.8), 16) << "two pixels at most";
+    EXPECT_EQ(agreeing(0.9, 2.4), 14);
+}
+
+TEST(BoxFlow, CornersAreThoseOfShiAndTomasiTwoPixelsApart) {
+    const cv::Mat fine = test::groundTexture(kPicture, 5, 0.7, 20, 235);
+    std::vector<cv::Point> outline;
+    for (const cv::Point2d& corner : standingBox().scaled(0.95, 0.95).corners())
+        outline.emplace_back(cvRound(corner.x), cvRound(corner.y));
+    cv::Mat mask = cv::Mat::zeros(kPicture, CV_8UC1);
+    cv::fillConvexPoly(mask, outline, 255);
+    std::vector<cv::Point2f> corners;
+    cv::goodFeaturesToTrack(fine, corners, 1000, 0.02, 2, mask);
+    EXPECT_EQ(flowOf(fine, fine, standingBox(), standingBox(), {.max_corners = 1000}).corners, int(corners.size()));
+}
+
 TEST(CameraAroundABox, IsTheMotionOfTheGroundWhateverTheBoxDoes) {
     for (const auto& [turn, scale, shift] : {std::tuple(0.0, 1.0, cv::Point2d(3, -2)),
                                              {0.02, 1.0, cv::Point2d(-2, 1)},
