@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "chain/chain.h"
@@ -56,6 +57,12 @@ TEST(ChainRun, followsEveryVehicleUnderAPanningCamera) {
         }
     }
     EXPECT_GE(followed, wanted * 9 / 10);
+    for (std::size_t stage = 0; stage < summary.median_ms.size(); ++stage) {
+        std::vector<float> times;
+        for (const auto& result : collector.results) times.push_back(result->stage_ms[stage]);
+        std::sort(times.begin(), times.end());
+        EXPECT_EQ(summary.median_ms[stage], times[times.size() / 2]) << stage;
+    }
 }
 
 TEST(ChainRun, tellsHowManyFramesAreDoneAndHowLongTheOthersTake) {
