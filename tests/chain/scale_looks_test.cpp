@@ -27,7 +27,34 @@ std::pair<std::size_t, int> looksForASlope(int frames, FrameRange range = {}) {
     return {told.size(), told.empty() ? 0 : told.front().frames_total};
 }
 
+/// Says its scale itself, as a rendered scene does.
+struct KnownSource : test::MemorySource {
+    KnownSource() : MemorySource(sceneOf(20, {64, 48})), known(MemorySource::info()) { known.gsd_m_per_px = 0.2; }
+    const VideoInfo& info() const override { return known; }
+    VideoInfo known;
+};
+
+/// Frames that are looked at for a slope before a run.
+int looks(FrameSource& source, const SceneScale& scale, bool oblique = true) {
+    ChainOptions options;
+    options.view.oblique = oblique;
+    int frames = 0;
+    slopeFor(source, {}, options, scale, {}, [&](const RunProgress&) { ++frames; });
+    return frames;
+}
+
 }  // namespace
+
+TEST(ScaleLooks, ForASlopeAreSparedWhereThereIsNoneOrNothingIsKnown) {
+    test::MemorySource source = sceneOf(20, {64, 48});
+    const SceneScale scale{0.2, 25, true};
+    EXPECT_EQ(looks(source, scale), 20);
+    EXPECT_EQ(looks(source, {0.2, 25, false}), 20) << "an estimate";
+    EXPECT_EQ(looks(source, scale, false), 0) << "straight down, as it is said";
+    EXPECT_EQ(looks(source, SceneScale()), 0) << "a scale that is only assumed";
+    KnownSource rendered;
+    EXPECT_EQ(looks(rendered, scale), 0) << "a rendered scene, seen from above";
+}
 
 TEST(ScaleLooks, EndWithTheRangeOrTheVideo) {
     const test::MemorySource source = sceneOf(20);
