@@ -212,6 +212,7 @@ TEST(BoxFollowerSteps, ItEndsWhereItIsLessLikeItselfThanAsked) {
             const double alike = lookOf(next, plain.box).correlation(lookOf(ground(), kStart));
             const FollowEnd why = flow.agreeing < 2 ? FollowEnd::few_corners : FollowEnd::appearance;
             EXPECT_EQ(plain.end, alike < 0.5 ? std::optional(why) : std::nullopt) << corners << " " << share;
+            EXPECT_NEAR(plain.certainty, 0.8 * std::max(0.0, alike) + 0.05 * std::min(flow.agreeing, 4), 1e-4);
             (plain.end ? ended : went_on)++;
             if (plain.end) continue;
             options.min_certainty = plain.certainty + 0.001;
