@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -150,7 +151,9 @@ struct EndedRun {
 /// Finishes the run and takes what only its recorder knows.
 void takeRecord(EndedRun& ended, RunRecorder& recorder, FrameSource& source, const std::stop_token& stop) {
     ended.summary.median_ms[static_cast<std::size_t>(Stage::store)] = recorder.medianStoreMs();
+    const auto before = std::chrono::steady_clock::now();
     ended.record = recorder.finish(ended.summary, &source, stop);
+    ended.summary.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
     if (ended.record.state == RunState::stopped) ended.summary.outcome = RunOutcome::stopped;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "chain/chain_run.h"
+#include "chain/recording/run_pictures.h"
 #include "chain/recording/run_resume.h"
 #include "store/details/recording_options.h"
 #include "store/runs/result_writer.h"
@@ -42,6 +43,7 @@ class RunRecorder : public ChainObserver {
     std::filesystem::path project_;
     ChainOptions options_;
     SceneScale scale_;
+    RunPictures pictures_;
     ResultWriter writer_;
     ChainObserver* also_;
     cv::Size image_size_;
