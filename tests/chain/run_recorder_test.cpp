@@ -71,6 +71,7 @@ RunRecord finishedLater(const std::filesystem::path& project, bool gone, int& re
     const RunRecord stopped = record(project, source, 30);
     const ResumedRun resumed = resumedRun(project, stopped.id, source);
     RunRecorder recorder(project, resumed);
+    recorder.holdPictures();
     const RunSummary summary =
         ChainRun(resumed.options, resumed.run.scale).run(source, resumed.range(), recorder, {}, false, resumed.start);
     source.reads = 0;
@@ -87,6 +88,7 @@ TEST(RunRecorder, picturesOfAShortRunAreHeldAndNotReadOnceMore) {
     CountedSource source(sixtyFrames());
     const SceneScale scale = sceneScale(source.info(), 0.2);
     RunRecorder recorder(folder / "p.eyrie", plannedRun(source.info(), scale, {}, "default"), ChainOptions{});
+    recorder.holdPictures();
     const RunSummary summary = ChainRun(ChainOptions{}, scale).run(source, {}, recorder, {});
     source.reads = 0;
     EXPECT_EQ(recorder.finish(summary, &source).state, RunState::finished);
@@ -132,7 +134,7 @@ TEST(RunPictures, areHeldOnlyWhereAllOfThemTakeLittleMemory) {
     RunPictures open_end({0, kLastFrame});
     open_end.take(0, picture);
     EXPECT_TRUE(open_end.at(0).empty());
-    RunPictures none(FrameRange{});
+    RunPictures none;
     none.take(0, picture);
     EXPECT_TRUE(none.at(0).empty());
 }

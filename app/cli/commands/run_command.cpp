@@ -197,6 +197,7 @@ EndedRun runAnew(const RunArguments& arguments, std::int64_t began_us, FrameSour
     ConsoleObserver console(arguments, video);
     RunRecorder recorder(project, planned, options, &console, recording,
                          unlessBegunMeanwhile(arguments, source, project));
+    recorder.holdPictures();
     EndedRun ended;
     ended.summary = ChainRun(options, chosen.scale).run(source, range, recorder, stop, !arguments.annotated.empty());
     takeRecord(ended, recorder, source, stop);
@@ -263,6 +264,7 @@ EndedRun goOn(const RunArguments& arguments, const RunRecord& run, FrameSource& 
     if (!arguments.quiet) tellWhereItGoesOn(resumed);
     ConsoleObserver console(arguments, source.info());
     RunRecorder recorder(project, resumed, &console);
+    recorder.holdPictures();
     if (!arguments.annotated.empty()) {
         ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
         console.drawStored(RunStore(file), run.id, source, {run.first_frame, resumed.last_done}, stop);

@@ -14,9 +14,10 @@ namespace eyrie {
 /// video need not be decoded once more to finish its tracks.
 class RunPictures {
  public:
-    static constexpr std::size_t kMostBytes = 256'000'000;
+    static constexpr std::size_t kMostBytes = 200'000'000;
 
-    /// Holds those of a range; an empty one holds none, and an end that is not known yet is too far.
+    RunPictures() = default;  ///< holds none
+    /// Holds those of a range; an end that is not known yet is too far.
     explicit RunPictures(FrameRange range);
 
     void take(FrameIndex frame, const cv::Mat& gray);

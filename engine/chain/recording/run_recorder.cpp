@@ -34,7 +34,7 @@ RunRecorder::RunRecorder(const std::filesystem::path& project, RunRecord run, co
     : project_(prepared(project)),
       options_(options),
       scale_(run.scale),
-      pictures_(options.finishing.looksAtPictures() ? FrameRange{run.first_frame, run.last_frame} : FrameRange{}),
+      range_{run.first_frame, run.last_frame},
       writer_(project, std::move(run), storedParameters(options, recording), may_add),
       also_(also) {}
 
@@ -42,10 +42,16 @@ RunRecorder::RunRecorder(const std::filesystem::path& project, const ResumedRun&
     : project_(project),
       options_(resumed.options),
       scale_(resumed.run.scale),
-      pictures_(resumed.options.finishing.looksAtPictures() ? resumed.range() : FrameRange{}),
+      range_(resumed.range()),
       writer_(project, resumed.run.id, resumed.last_done),
       also_(also),
       image_size_(resumed.run.sequence.size) {}
+
+void RunRecorder::holdPictures() {
+    // Without a classifier nothing is judged, and tracks are not finished by pictures.
+    if (options_.finishing.looksAtPictures() && looksThroughWindows(options_.detection.method))
+        pictures_ = RunPictures(range_);
+}
 
 void RunRecorder::onFrame(const std::shared_ptr<const FrameResult>& result, const Frame& frame) {
     store_ms_.push_back(writer_.write(*result));
@@ -104,8 +110,10 @@ RunRecord RunRecorder::finish(const RunSummary& summary, FrameSource* source, st
         message = "stopped while its tracks were finished";
         writer_.finish(state, message);
     }
-    if (pictures && pictures->lost() > 0 && message.empty())
-        message = std::to_string(pictures->lost()) + " pictures could not be read again to finish the tracks";
+    if (pictures && pictures->lost() > 0) {
+        message += (message.empty() ? "" : ". Also, ") + std::to_string(pictures->lost()) +
+                   " pictures could not be read again to finish the tracks";
+    }
     RunStateStore(project).keepTracks(writer_.runId());
     TracksOfRun tracks;
     tracks.states = [&](const StateVisitor& visitor) { finished.visit(visitor); };
