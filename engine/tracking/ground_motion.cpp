@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include "core/geometry/homography.h"
+#include "core/geometry/homography_jacobian.h"
 
 namespace eyrie {
 namespace {
@@ -97,6 +98,15 @@ std::optional<MovingState> GroundMotion::carried(MovingState state, FrameIndex f
         if (!isFinite(state)) return std::nullopt;
     }
     return state;
+}
+
+double GroundMotion::zoomAt(const cv::Matx33d& map, cv::Point2d place) const {
+    const HomographyJacobian there(map, place);
+    if (slope_.isFlat()) return there.scale();
+    // Along the horizon a metre grows with the place; across it it also comes to be seen less at an angle.
+    const cv::Point2d level = cv::Point2d(-slope_.down_per_px, slope_.right_per_px);
+    const cv::Point2d enlarged = there.vector(level);
+    return std::sqrt(enlarged.dot(enlarged) / level.dot(level)) / enlargement(place, there.point());
 }
 
 bool GroundMotion::aboveHorizon(const OrientedBox& box) const {

@@ -35,6 +35,10 @@ class GroundMotion {
     /// How much larger than at one place of a picture the same thing is at another; 1 where the view is flat.
     double enlargement(cv::Point2d from, cv::Point2d to) const { return slope_.factorAt(to) / slope_.factorAt(from); }
 
+    /// How much a map of the ground enlarges what is at a place beyond what comes of the other place it takes it to:
+    /// the camera's zoom and height.
+    double zoomAt(const cv::Matx33d& map, cv::Point2d place) const;
+
     /// Whether a whole box lies above the horizon, where the view has one: what is seen there is no ground.
     bool aboveHorizon(const OrientedBox& box) const;
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/values/last_frame.h"
 #include "store/project/project_file.h"
 #include "support/moving_scene.h"
 #include "support/temporary_folder.h"
@@ -58,47 +59,89 @@ struct CountedSource : test::MemorySource {
     }
 };
 
-struct Finished {
-    RunRecord record;
-    int reads = 0;  ///< while it was finished
-};
-
-Finished finishedWith(const std::filesystem::path& project, int stop_after, bool gone) {
+test::MovingScene sixtyFrames() {
     test::MovingScene scene;
     scene.frames = 60;
-    CountedSource source(scene);
-    const SceneScale scale = sceneScale(source.info(), 0.2);
-    StopAfter stopper(stop_after);
-    RunRecorder recorder(project, plannedRun(source.info(), scale, {}, "default"), ChainOptions{}, &stopper);
-    const RunSummary summary = ChainRun(ChainOptions{}, scale).run(source, {}, recorder, stopper.stop.get_token());
+    return scene;
+}
+
+/// A run that was stopped after some frames and gone on with; how many pictures finishing it has read.
+RunRecord finishedLater(const std::filesystem::path& project, bool gone, int& reads) {
+    CountedSource source(sixtyFrames());
+    const RunRecord stopped = record(project, source, 30);
+    const ResumedRun resumed = resumedRun(project, stopped.id, source);
+    RunRecorder recorder(project, resumed);
+    recorder.holdPictures();
+    const RunSummary summary =
+        ChainRun(resumed.options, resumed.run.scale).run(source, resumed.range(), recorder, {}, false, resumed.start);
     source.reads = 0;
     source.gone = gone;
-    Finished finished;
-    finished.record = recorder.finish(summary, &source);
-    finished.reads = source.reads;
+    const RunRecord finished = recorder.finish(summary, &source);
+    reads = source.reads;
     return finished;
 }
 
 }  // namespace
 
-TEST(RunRecorder, picturesAreReadOnceMoreWhereTheRunIsWhole) {
+TEST(RunRecorder, picturesOfAShortRunAreHeldAndNotReadOnceMore) {
     const test::TemporaryFolder folder;
-    const Finished whole = finishedWith(folder / "whole.eyrie", 1000, false);
-    EXPECT_EQ(whole.record.state, RunState::finished);
-    EXPECT_GT(whole.reads, 0);
-    EXPECT_LE(whole.reads, 60);
-    EXPECT_EQ(finishedWith(folder / "stopped.eyrie", 50, false).reads, 0) << "whoever stops does not wait";
-    const Finished gone = finishedWith(folder / "gone.eyrie", 1000, true);
-    EXPECT_EQ(gone.record.state, RunState::finished);
-    EXPECT_EQ(gone.record.message,
-              std::to_string(gone.reads) + " pictures could not be read again to finish the tracks");
+    CountedSource source(sixtyFrames());
+    const SceneScale scale = sceneScale(source.info(), 0.2);
+    RunRecorder recorder(folder / "p.eyrie", plannedRun(source.info(), scale, {}, "default"), ChainOptions{});
+    recorder.holdPictures();
+    const RunSummary summary = ChainRun(ChainOptions{}, scale).run(source, {}, recorder, {});
+    source.reads = 0;
+    EXPECT_EQ(recorder.finish(summary, &source).state, RunState::finished);
+    EXPECT_EQ(source.reads, 0);
+}
+
+TEST(RunRecorder, picturesThatAreNotHeldAreReadOnceMore) {
+    const test::TemporaryFolder folder;
+    int reads = 0;
+    const RunRecord whole = finishedLater(folder / "whole.eyrie", false, reads);
+    EXPECT_EQ(whole.state, RunState::finished);
+    EXPECT_TRUE(whole.message.empty()) << whole.message;
+    EXPECT_GT(reads, 0);
+    EXPECT_LE(reads, 40) << "those before it was gone on with, and what its state is older";
+    const RunRecord gone = finishedLater(folder / "gone.eyrie", true, reads);
+    EXPECT_EQ(gone.state, RunState::finished);
+    EXPECT_NE(gone.message.find("pictures could not be read again"), std::string::npos) << gone.message;
+}
+
+TEST(RunRecorder, whoStopsARunDoesNotWaitForItsPictures) {
+    const test::TemporaryFolder folder;
+    CountedSource source(sixtyFrames());
+    const SceneScale scale = sceneScale(source.info(), 0.2);
+    StopAfter stopper(50);
+    RunRecorder recorder(folder / "p.eyrie", plannedRun(source.info(), scale, {}, "default"), ChainOptions{}, &stopper);
+    const RunSummary summary = ChainRun(ChainOptions{}, scale).run(source, {}, recorder, stopper.stop.get_token());
+    source.gone = true;
+    EXPECT_EQ(recorder.finish(summary, &source).state, RunState::stopped);
+}
+
+TEST(RunPictures, areHeldOnlyWhereAllOfThemTakeLittleMemory) {
+    const cv::Mat picture(16, 16, CV_8UC1, cv::Scalar(7));
+    constexpr int kMost = static_cast<int>(RunPictures::kMostBytes / (16 * 16));
+    RunPictures fits({100, 100 + kMost - 1});
+    fits.take(101, picture);
+    EXPECT_EQ(fits.at(101).data, picture.data) << "held, not copied";
+    EXPECT_TRUE(fits.at(99).empty());
+    EXPECT_TRUE(fits.at(100).empty());
+    EXPECT_TRUE(fits.at(102).empty());
+    RunPictures too_many({100, 100 + kMost});
+    too_many.take(101, picture);
+    EXPECT_TRUE(too_many.at(101).empty());
+    RunPictures open_end({0, kLastFrame});
+    open_end.take(0, picture);
+    EXPECT_TRUE(open_end.at(0).empty());
+    RunPictures none;
+    none.take(0, picture);
+    EXPECT_TRUE(none.at(0).empty());
 }
 
 TEST(RunRecorder, aStopWhilePicturesAreReadOnceMoreLeavesAStoppedRun) {
     const test::TemporaryFolder folder;
-    test::MovingScene scene;
-    scene.frames = 60;
-    CountedSource source(scene);
+    CountedSource source(sixtyFrames());
     const SceneScale scale = sceneScale(source.info(), 0.2);
     RunRecord run;
     {

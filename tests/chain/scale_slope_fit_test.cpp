@@ -33,16 +33,17 @@ std::vector<ScaleVote> votesUnder(double right, double down, int count, double s
 
 TEST(ScaleSlopeFit, FindsTheSlopeOfAnObliqueView) {
     for (const double down : {0.0008, 0.0015, 0.0025}) {
-        const ScaleSlope found = fitSlope(votesUnder(0, down, 120), kImage, kGsd);
+        const ScaleSlope found = fitSlope(votesUnder(0, down, 120), kImage, kGsd, CameraSlope(kImage));
         EXPECT_NEAR(found.down_per_px, down, 0.15 * down + 0.0001);
         EXPECT_NEAR(found.right_per_px, 0, 0.00015);
         EXPECT_EQ(found.centre(), cv::Point2d(499.5, 299.5));
     }
-    EXPECT_NEAR(fitSlope(votesUnder(0, -0.0015, 120), kImage, kGsd).down_per_px, -0.0015, 0.0003) << "upside down";
+    EXPECT_NEAR(fitSlope(votesUnder(0, -0.0015, 120), kImage, kGsd, CameraSlope(kImage)).down_per_px, -0.0015, 0.0003)
+        << "upside down";
 }
 
 TEST(ScaleSlopeFit, AHorizonThatIsNotLevelIsFoundToo) {
-    const ScaleSlope found = fitSlope(votesUnder(0.0005, 0.0015, 200), kImage, kGsd);
+    const ScaleSlope found = fitSlope(votesUnder(0.0005, 0.0015, 200), kImage, kGsd, CameraSlope(kImage));
     EXPECT_NEAR(found.right_per_px, 0.0005, 0.0002);
     EXPECT_NEAR(found.down_per_px, 0.0015, 0.0003);
 }
@@ -50,7 +51,8 @@ TEST(ScaleSlopeFit, AHorizonThatIsNotLevelIsFoundToo) {
 TEST(ScaleSlopeFit, ANadirViewIsFlatHoweverManyVehiclesVote) {
     for (unsigned seed = 1; seed <= 20; ++seed) {
         for (const int count : {15, 60, 300})
-            EXPECT_TRUE(fitSlope(votesUnder(0, 0, count, 0.25, seed), kImage, kGsd).isFlat()) << count << ", " << seed;
+            EXPECT_TRUE(fitSlope(votesUnder(0, 0, count, 0.25, seed), kImage, kGsd, CameraSlope(kImage)).isFlat())
+                << count << ", " << seed;
     }
 }
 
@@ -61,13 +63,13 @@ TEST(ScaleSlopeFit, PartsAndPairsOfCarsTellNothing) {
         astray[i].gsd_m_per_px *= i % 2 == 0 ? 2.5 : 0.4;
         votes.push_back(astray[i]);
     }
-    EXPECT_NEAR(fitSlope(votes, kImage, kGsd).down_per_px, 0.002, 0.0004);
+    EXPECT_NEAR(fitSlope(votes, kImage, kGsd, CameraSlope(kImage)).down_per_px, 0.002, 0.0004);
 }
 
 TEST(ScaleSlopeFit, TheMiddleNeedNotBeExactlyTheGivenScale) {
     std::vector<ScaleVote> votes = votesUnder(0, 0.002, 120);
     for (ScaleVote& vote : votes) vote.gsd_m_per_px *= 0.85;
-    EXPECT_NEAR(fitSlope(votes, kImage, kGsd).down_per_px, 0.002, 0.0004);
+    EXPECT_NEAR(fitSlope(votes, kImage, kGsd, CameraSlope(kImage)).down_per_px, 0.002, 0.0004);
 }
 
 /// Votes without noise, spread evenly over the picture; growth is that from its middle to an edge.
@@ -78,7 +80,7 @@ ScaleSlope fitOf(double right, double down, int count) {
         const cv::Point2d place(20 + 960.0 * (i * 7 % count) / (count - 1), 20 + 560.0 * i / (count - 1));
         votes.push_back({place, kGsd / slope.factorAt(place), 8});
     }
-    return fitSlope(votes, kImage, kGsd);
+    return fitSlope(votes, kImage, kGsd, CameraSlope(kImage));
 }
 
 TEST(ScaleSlopeFit, TwelveVotesAreEnoughAndElevenAreNot) {
@@ -100,11 +102,11 @@ TEST(ScaleSlopeFit, AHorizonThatLeansIsBelievedReluctantly) {
 }
 
 TEST(ScaleSlopeFit, FewVotesOrVotesInOnePlaceTellNoSlope) {
-    EXPECT_TRUE(fitSlope({}, kImage, kGsd).isFlat());
-    EXPECT_TRUE(fitSlope(votesUnder(0, 0.002, 11), kImage, kGsd).isFlat());
+    EXPECT_TRUE(fitSlope({}, kImage, kGsd, CameraSlope(kImage)).isFlat());
+    EXPECT_TRUE(fitSlope(votesUnder(0, 0.002, 11), kImage, kGsd, CameraSlope(kImage)).isFlat());
     std::vector<ScaleVote> together = votesUnder(0, 0.002, 200);
     for (ScaleVote& vote : together) vote.place = {500, 300 + (vote.place.y - 300) / 100};
-    EXPECT_TRUE(fitSlope(together, kImage, kGsd).isFlat());
+    EXPECT_TRUE(fitSlope(together, kImage, kGsd, CameraSlope(kImage)).isFlat());
 }
 
 /// Votes of one vehicle that drives from the far end of a view towards the camera.
@@ -123,7 +125,7 @@ std::vector<ScaleVote> votesOnTheWay(double horizon_y, int count, double spread 
 
 TEST(ViewFit, OneVehicleThatComesNearerTellsScaleAndHorizonTogether) {
     for (const double horizon_y : {180.0, 100.0}) {
-        const auto found = fitView(votesOnTheWay(horizon_y, 30), kImage);
+        const auto found = fitView(votesOnTheWay(horizon_y, 30), kImage, CameraSlope(kImage));
         ASSERT_FALSE(found.empty()) << horizon_y;
         const auto& [gsd, slope] = found.front();
         EXPECT_NEAR(gsd, kGsd, 0.15 * kGsd);
@@ -136,27 +138,27 @@ TEST(ViewFit, OneVehicleThatComesNearerTellsScaleAndHorizonTogether) {
 TEST(ViewFit, PartsOfTheVehicleDoNotMislead) {
     std::vector<ScaleVote> votes = votesOnTheWay(180, 30);
     for (std::size_t i = 0; i < votes.size(); i += 4) votes[i].gsd_m_per_px *= 2.5;
-    const auto found = fitView(votes, kImage);
+    const auto found = fitView(votes, kImage, CameraSlope(kImage));
     ASSERT_FALSE(found.empty());
     EXPECT_NEAR(found.front().gsd_m_per_px, kGsd, 0.2 * kGsd);
 }
 
 TEST(ViewFit, OthersThatFitAboutAsWellAreTold) {
-    const auto few = fitView(votesOnTheWay(180, 20), kImage);
+    const auto few = fitView(votesOnTheWay(180, 20), kImage, CameraSlope(kImage));
     ASSERT_GE(few.size(), 2U);
     EXPECT_NE(few[0].slope, few[1].slope);
-    EXPECT_EQ(fitView(votesOnTheWay(180, 400, 0.05), kImage).size(), 1U) << "where many agree";
+    EXPECT_EQ(fitView(votesOnTheWay(180, 400, 0.05), kImage, CameraSlope(kImage)).size(), 1U) << "where many agree";
 }
 
 TEST(ViewFit, NothingIsToldByFewVotesByOneScaleForAllOrByVotesThatDisagree) {
-    EXPECT_FALSE(fitView(votesOnTheWay(180, 16), kImage).empty());
-    EXPECT_TRUE(fitView(votesOnTheWay(180, 15), kImage).empty());
+    EXPECT_FALSE(fitView(votesOnTheWay(180, 16), kImage, CameraSlope(kImage)).empty());
+    EXPECT_TRUE(fitView(votesOnTheWay(180, 15), kImage, CameraSlope(kImage)).empty());
     for (unsigned seed = 1; seed <= 20; ++seed)
-        EXPECT_TRUE(fitView(votesUnder(0, 0, 60, 0.12, seed), kImage).empty()) << seed;
+        EXPECT_TRUE(fitView(votesUnder(0, 0, 60, 0.12, seed), kImage, CameraSlope(kImage)).empty()) << seed;
     std::vector<ScaleVote> scattered = votesOnTheWay(180, 30);
     for (std::size_t i = 0; i < scattered.size(); ++i)
         scattered[i].gsd_m_per_px *= i % 2 == 0 ? 1 : 3.0 + double(i % 7);
-    EXPECT_TRUE(fitView(scattered, kImage).empty());
+    EXPECT_TRUE(fitView(scattered, kImage, CameraSlope(kImage)).empty());
 }
 
 TEST(ViewEstimation, ACarThatGrowsOnItsWayShowsTheHorizonOfALowFlight) {

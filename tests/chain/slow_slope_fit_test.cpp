@@ -5,7 +5,7 @@
 
 #include "chain/scale/scale_slope_fit.h"
 
-/// Slopes of the scale against slow fits that follow the words of their description.
+/// Slopes of the scale against slow fits that follow the words of their description, where the camera tells nothing.
 namespace eyrie::slow_slope_fit_test {
 namespace {
 
@@ -116,7 +116,7 @@ TEST(SlowSlopeFit, ASlopeIsTheCheapestOfAllAndSavesEnough) {
         const double right = 0.05 * (i % 7 - 3), down = 0.13 * (i % 13 - 6);
         const auto votes = votesUnder(0.1, right, down, 10 + 3 * (i % 11), 0.1 * (i % 4), random);
         const double gsd = 0.1 * std::exp(0.1 * (i % 5 - 2));
-        const ScaleSlope slow = slowSlope(votes, gsd), found = fitSlope(votes, kImage, gsd);
+        const ScaleSlope slow = slowSlope(votes, gsd), found = fitSlope(votes, kImage, gsd, CameraSlope(kImage));
         EXPECT_NEAR(found.right_per_px, slow.right_per_px, 1e-12) << i;
         EXPECT_NEAR(found.down_per_px, slow.down_per_px, 1e-12) << i;
         ++(slow.isFlat() ? flat : sloped);
@@ -135,7 +135,7 @@ TEST(SlowSlopeFit, ViewsAreTheCheapestAndThoseAboutAsGood) {
             votesUnder(std::array{0.011, 0.05, 0.2, 0.9}[std::size_t(i % 4)], 0, down, count, 0.08 * (i % 5), random);
         // A view is told by what is below its horizon.
         std::erase_if(votes, [](const ScaleVote& vote) { return vote.place.y < 200; });
-        const auto slow = slowViews(votes), found = fitView(votes, kImage);
+        const auto slow = slowViews(votes), found = fitView(votes, kImage, CameraSlope(kImage));
         ASSERT_EQ(found.size(), slow.size()) << i;
         ++by_number[slow.size()];
         for (std::size_t k = 0; k < slow.size(); ++k) {

@@ -92,6 +92,7 @@ void RunController::work(const RunRequest& request, LiveFeed& feed, const Backgr
         if (request.resume_run > 0) {
             const ResumedRun resumed = resumedRun(request.project, request.resume_run, *source);
             RunRecorder recorder(request.project, resumed, &feed);
+            recorder.holdPictures();
             run_id = resumed.run.id;
             task.tell([this, record = resumed.run] { emit started(record); });
             summary = ChainRun(resumed.options, resumed.run.scale)
@@ -108,6 +109,7 @@ void RunController::work(const RunRequest& request, LiveFeed& feed, const Backgr
             record.started_us = began_us;
             record.sequence.path = request.media.identity;
             RunRecorder recorder(request.project, record, request.options, &feed, request.recording);
+            recorder.holdPictures();
             run_id = recorder.runId();
             record.id = run_id;
             task.tell([this, record] { emit started(record); });

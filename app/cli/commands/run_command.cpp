@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -150,7 +151,9 @@ struct EndedRun {
 /// Finishes the run and takes what only its recorder knows.
 void takeRecord(EndedRun& ended, RunRecorder& recorder, FrameSource& source, const std::stop_token& stop) {
     ended.summary.median_ms[static_cast<std::size_t>(Stage::store)] = recorder.medianStoreMs();
+    const auto before = std::chrono::steady_clock::now();
     ended.record = recorder.finish(ended.summary, &source, stop);
+    ended.summary.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
     if (ended.record.state == RunState::stopped) ended.summary.outcome = RunOutcome::stopped;
 }
 
@@ -194,6 +197,7 @@ EndedRun runAnew(const RunArguments& arguments, std::int64_t began_us, FrameSour
     ConsoleObserver console(arguments, video);
     RunRecorder recorder(project, planned, options, &console, recording,
                          unlessBegunMeanwhile(arguments, source, project));
+    recorder.holdPictures();
     EndedRun ended;
     ended.summary = ChainRun(options, chosen.scale).run(source, range, recorder, stop, !arguments.annotated.empty());
     takeRecord(ended, recorder, source, stop);
@@ -260,6 +264,7 @@ EndedRun goOn(const RunArguments& arguments, const RunRecord& run, FrameSource& 
     if (!arguments.quiet) tellWhereItGoesOn(resumed);
     ConsoleObserver console(arguments, source.info());
     RunRecorder recorder(project, resumed, &console);
+    recorder.holdPictures();
     if (!arguments.annotated.empty()) {
         ProjectFile file = ProjectFile::open(project, ProjectFile::Mode::read_only);
         console.drawStored(RunStore(file), run.id, source, {run.first_frame, resumed.last_done}, stop);

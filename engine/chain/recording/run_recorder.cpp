@@ -1,7 +1,6 @@
 #include "chain/recording/run_recorder.h"
 
 #include <algorithm>
-#include <chrono>
 #include <optional>
 #include <utility>
 
@@ -28,60 +27,6 @@ std::vector<std::pair<std::string, std::string>> storedParameters(const ChainOpt
     return values;
 }
 
-constexpr std::chrono::milliseconds kTellEvery(200);
-
-/// The pictures of a run once more, for finishing, which asks for them in ascending order. Tells how far it is. None
-/// that cannot be read any more, and none from a stop on.
-class PicturesOnceMore {
- public:
-    PicturesOnceMore(FrameSource& source, FrameIndex first, int frames, ChainObserver* told, std::stop_token stop)
-        : source_(source), first_(first), told_(told), stop_(std::move(stop)) {
-        progress_.frames_total = frames;
-        progress_.finishing = true;
-    }
-
-    cv::Mat operator()(FrameIndex frame) {
-        stopped_ = stopped_ || stop_.stop_requested();
-        if (stopped_) return {};
-        if (!begun_) begun_ = last_told_ = Clock::now();
-        tell(frame);
-        try {
-            return source_.read(frame, false).gray;
-        } catch (const std::exception&) {
-            ++lost_;
-            return {};
-        }
-    }
-    /// Pictures that could not be read any more.
-    int lost() const { return lost_; }
-    /// Whether a picture was refused: then what finishing did with them is incomplete.
-    bool stopped() const { return stopped_; }
-
- private:
-    using Clock = std::chrono::steady_clock;
-
-    void tell(FrameIndex frame) {
-        const Clock::time_point now = Clock::now();
-        if (told_ == nullptr || frame <= first_ || now - last_told_ < kTellEvery) return;
-        last_told_ = now;
-        progress_.frames_done = frame - first_;
-        const std::chrono::duration<double> passed = now - *begun_;
-        progress_.frames_per_second = progress_.frames_done / passed.count();
-        progress_.seconds_left = (progress_.frames_total - progress_.frames_done) / progress_.frames_per_second;
-        told_->onProgress(progress_);
-    }
-
-    FrameSource& source_;
-    FrameIndex first_;
-    ChainObserver* told_;
-    std::stop_token stop_;
-    bool stopped_ = false;
-    RunProgress progress_;
-    int lost_ = 0;
-    std::optional<Clock::time_point> begun_;  ///< with the first picture
-    Clock::time_point last_told_{};
-};
-
 }  // namespace
 
 RunRecorder::RunRecorder(const std::filesystem::path& project, RunRecord run, const ChainOptions& options,
@@ -89,6 +34,7 @@ RunRecorder::RunRecorder(const std::filesystem::path& project, RunRecord run, co
     : project_(prepared(project)),
       options_(options),
       scale_(run.scale),
+      range_{run.first_frame, run.last_frame},
       writer_(project, std::move(run), storedParameters(options, recording), may_add),
       also_(also) {}
 
@@ -96,13 +42,21 @@ RunRecorder::RunRecorder(const std::filesystem::path& project, const ResumedRun&
     : project_(project),
       options_(resumed.options),
       scale_(resumed.run.scale),
+      range_(resumed.range()),
       writer_(project, resumed.run.id, resumed.last_done),
       also_(also),
       image_size_(resumed.run.sequence.size) {}
 
+void RunRecorder::holdPictures() {
+    // Without a classifier nothing is judged, and tracks are not finished by pictures.
+    if (options_.finishing.looksAtPictures() && looksThroughWindows(options_.detection.method))
+        pictures_ = RunPictures(range_);
+}
+
 void RunRecorder::onFrame(const std::shared_ptr<const FrameResult>& result, const Frame& frame) {
     store_ms_.push_back(writer_.write(*result));
     image_size_ = result->motion.image_size;
+    pictures_.take(result->motion.frame, frame.gray);
     if (also_) also_->onFrame(result, frame);
 }
 
@@ -145,7 +99,7 @@ RunRecord RunRecorder::finish(const RunSummary& summary, FrameSource* source, st
     std::optional<PicturesOnceMore> pictures;
     if (state == RunState::finished && source != nullptr) {
         const RunRecord run = store.run(writer_.runId()).value();
-        pictures.emplace(*source, run.first_frame, run.last_frame - run.first_frame + 1, also_, std::move(stop));
+        pictures.emplace(pictures_, *source, run.first_frame, run.last_frame, also_, std::move(stop));
         found.gray_at = [&](FrameIndex frame) { return (*pictures)(frame); };
     }
     const FinishedTracks finished = finishRun(followed, ground, options_.finishing, scale_, found);
@@ -156,8 +110,10 @@ RunRecord RunRecorder::finish(const RunSummary& summary, FrameSource* source, st
         message = "stopped while its tracks were finished";
         writer_.finish(state, message);
     }
-    if (pictures && pictures->lost() > 0 && message.empty())
-        message = std::to_string(pictures->lost()) + " pictures could not be read again to finish the tracks";
+    if (pictures && pictures->lost() > 0) {
+        message += (message.empty() ? "" : ". Also, ") + std::to_string(pictures->lost()) +
+                   " pictures could not be read again to finish the tracks";
+    }
     RunStateStore(project).keepTracks(writer_.runId());
     TracksOfRun tracks;
     tracks.states = [&](const StateVisitor& visitor) { finished.visit(visitor); };

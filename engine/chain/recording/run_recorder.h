@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "chain/chain_run.h"
+#include "chain/recording/run_pictures.h"
 #include "chain/recording/run_resume.h"
 #include "store/details/recording_options.h"
 #include "store/runs/result_writer.h"
@@ -25,6 +26,9 @@ class RunRecorder : public ChainObserver {
     /// Goes on with a run that ended early: its frames stay until each is done again.
     RunRecorder(const std::filesystem::path& project, const ResumedRun& resumed, ChainObserver* also = nullptr);
 
+    /// Holds the pictures of a short run for `finish` with its source, which then reads none of them again.
+    void holdPictures();
+
     void onFrame(const std::shared_ptr<const FrameResult>& result, const Frame& frame) override;
     void onProgress(const RunProgress& progress) override;
     std::optional<StateKeeping> stateKeeping() const override { return StateKeeping{}; }
@@ -42,6 +46,8 @@ class RunRecorder : public ChainObserver {
     std::filesystem::path project_;
     ChainOptions options_;
     SceneScale scale_;
+    FrameRange range_;
+    RunPictures pictures_;
     ResultWriter writer_;
     ChainObserver* also_;
     cv::Size image_size_;

@@ -68,7 +68,7 @@ struct MiddleFit {
     std::size_t agreeing = 0;
 };
 
-MiddleFit bestMiddle(double down, const std::vector<ScaleVote>& votes, cv::Size image) {
+MiddleFit bestMiddle(double down, const std::vector<ScaleVote>& votes, cv::Size image, const CameraSlope& camera) {
     const ScaleSlope slope = ScaleSlope::ofPicture(image, 0, down / (image.height / 2.0));
     std::vector<double> middles;  // logarithm of the scale that each vote asks for in the middle
     middles.reserve(votes.size());
@@ -82,7 +82,7 @@ MiddleFit bestMiddle(double down, const std::vector<ScaleVote>& votes, cv::Size 
             cost += std::min(off, kFarOff);
             agreeing += off < kFarOff;
         }
-        cost = kIndependent * cost + tiltCost(down);
+        cost = kIndependent * cost + tiltCost(down) + camera.cost(down);
         if (cost < best.cost) best = {std::exp(middle), cost, agreeing};
     }
     return best;
@@ -90,20 +90,20 @@ MiddleFit bestMiddle(double down, const std::vector<ScaleVote>& votes, cv::Size 
 
 }  // namespace
 
-std::vector<ViewFit> fitView(const std::vector<ScaleVote>& votes, cv::Size image) {
+std::vector<ViewFit> fitView(const std::vector<ScaleVote>& votes, cv::Size image, const CameraSlope& camera) {
     if (votes.size() < kFewestOfView) return {};
     MiddleFit best;
     double growth = 0;
     for (double down = kLeastGrowth; down <= kMostGrowth; down *= kGrowthFactor) {
-        const MiddleFit fit = bestMiddle(down, votes, image);
+        const MiddleFit fit = bestMiddle(down, votes, image, camera);
         if (fit.cost >= best.cost) continue;
         best = fit;
         growth = down;
     }
-    const double flat = bestMiddle(0, votes, image).cost;
+    const double flat = bestMiddle(0, votes, image, camera).cost;
     std::vector<ViewFit> views;
     for (const double down : {growth, growth / kApart, growth * kApart}) {
-        const MiddleFit fit = bestMiddle(down, votes, image);
+        const MiddleFit fit = bestMiddle(down, votes, image, camera);
         const bool agree = static_cast<double>(fit.agreeing) >= kAgreeing * static_cast<double>(votes.size());
         if (agree && flat - fit.cost >= kSavedByView && fit.cost - best.cost <= kAboutAsGood)
             views.push_back({fit.gsd_m_per_px, ScaleSlope::ofPicture(image, 0, down / (image.height / 2.0))});
@@ -111,14 +111,18 @@ std::vector<ViewFit> fitView(const std::vector<ScaleVote>& votes, cv::Size image
     return views;
 }
 
-ScaleSlope fitSlope(const std::vector<ScaleVote>& votes, cv::Size image, double gsd_m_per_px) {
-    if (votes.size() < kFewestVotes) return {};
+ScaleSlope fitSlope(const std::vector<ScaleVote>& all_votes, cv::Size image, double gsd_m_per_px,
+                    const CameraSlope& camera) {
+    const std::vector<ScaleVote> votes = all_votes.size() < kFewestVotes ? std::vector<ScaleVote>() : all_votes;
+    const auto costOfBoth = [&](double to_right, double downwards) {
+        return costOf(to_right, downwards, votes, image, gsd_m_per_px) + camera.cost(downwards);
+    };
     double least = 1e300;
     double right = 0;
     double down = 0;
     for (int aside = -kMostAside; aside <= kMostAside; ++aside) {
         for (int below = -kMostDown; below <= kMostDown; ++below) {
-            const double cost = costOf(aside * kGrowthStep, below * kGrowthStep, votes, image, gsd_m_per_px);
+            const double cost = costOfBoth(aside * kGrowthStep, below * kGrowthStep);
             if (cost >= least) continue;
             least = cost;
             right = aside * kGrowthStep;
@@ -126,7 +130,7 @@ ScaleSlope fitSlope(const std::vector<ScaleVote>& votes, cv::Size image, double 
         }
     }
     if (std::max(std::abs(right), std::abs(down)) < kWorthwhile) return {};
-    if (costOf(0, 0, votes, image, gsd_m_per_px) - least < kSaved) return {};
+    if (costOfBoth(0, 0) - least < kSaved) return {};
     return ScaleSlope::ofPicture(image, right / (image.width / 2.0), down / (image.height / 2.0));
 }
 

@@ -3,6 +3,7 @@
 #include <opencv2/core/types.hpp>
 #include <vector>
 
+#include "chain/scale/camera_slope.h"
 #include "core/values/scale_slope.h"
 #include "detection/sliding_window/scale_votes.h"
 
@@ -12,8 +13,10 @@ namespace eyrie {
 /// function of the place that fits pixels per metre. Votes that lie far off count all the same, for a part of a car may
 /// look like one as well as two of them do. Around the picture's middle, where `gsd_m_per_px` was given or estimated, a
 /// car may be somewhat smaller or larger than usual; a horizon that is not level needs more evidence than a level one.
-/// Flat unless a slope explains the votes far better than none, and matters.
-ScaleSlope fitSlope(const std::vector<ScaleVote>& votes, cv::Size image, double gsd_m_per_px);
+/// What the camera's way says of the growth downwards counts beside the votes, and alone where there are few.
+/// Flat unless a slope explains all that far better than none, and matters.
+ScaleSlope fitSlope(const std::vector<ScaleVote>& votes, cv::Size image, double gsd_m_per_px,
+                    const CameraSlope& camera);
 
 /// A scale that changes downwards over the picture, whose horizon is level.
 struct ViewFit {
@@ -24,6 +27,6 @@ struct ViewFit {
 /// Scale and slope together, where nothing is known of either: a view so oblique that no scale fits the whole of it.
 /// The horizon may lie in the picture. Nothing unless most votes agree on both, and better than on one scale for all;
 /// else what fits best, then what fits about as well, none of them sure before the chain finds traffic with it.
-std::vector<ViewFit> fitView(const std::vector<ScaleVote>& votes, cv::Size image);
+std::vector<ViewFit> fitView(const std::vector<ScaleVote>& votes, cv::Size image, const CameraSlope& camera);
 
 }  // namespace eyrie

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "chain/chain.h"
+#include "chain/scale/camera_slope.h"
 #include "chain/scale/look_progress.h"
 #include "chain/scale/moving_votes.h"
 #include "chain/scale/scale_slope_fit.h"
@@ -50,7 +51,7 @@ struct VotesOfView {
 
 /// Stretches end before a frame that cannot be read: the run will come to it and report it.
 VotesOfView votesOf(FrameSource& source, std::vector<Stretch>& stretches, const ChainOptions& options,
-                    double frame_rate_hz, const std::stop_token& stop, LookProgress& progress) {
+                    double frame_rate_hz, const std::stop_token& stop, LookProgress& progress, CameraSlope& camera) {
     const ScaleLooker looker(options.detection.sliding_window);
     SceneScale scale;
     scale.gsd_m_per_px = kLinkedAt;
@@ -59,6 +60,7 @@ VotesOfView votesOf(FrameSource& source, std::vector<Stretch>& stretches, const 
     VotesOfView all;
     for (Stretch& stretch : stretches) {
         MotionHalf motion_half(options, scale);
+        CameraWay way;
         for (int i = 0; i < stretch.count && !stop.stop_requested(); ++i) {
             Frame frame;
             try {
@@ -70,11 +72,13 @@ VotesOfView votesOf(FrameSource& source, std::vector<Stretch>& stretches, const 
             StageTimes times{};
             const FrameMotion motion = motion_half.next(frame, times);
             progress.step();
+            way.add(motion.registration);
             if (i < kUntilMoving) continue;
             const std::vector<ScaleVote> found = votesIn(frame, motion, clustering, looker, kAnyScale);
             all.at_once = std::max(all.at_once, found.size());
             all.votes.insert(all.votes.end(), found.begin(), found.end());
         }
+        camera.add(way.steps());
     }
     return all;
 }
@@ -91,8 +95,9 @@ std::optional<EstimatedView> estimateView(FrameSource& source, FrameRange range,
     int frames = 0;
     for (const Stretch& stretch : stretches) frames += stretch.count;
     LookProgress voting(told, frames);
-    const VotesOfView given = votesOf(source, stretches, options, frame_rate_hz, stop, voting);
-    const std::vector<ViewFit> views = fitView(given.votes, source.info().size);
+    CameraSlope camera(source.info().size);
+    const VotesOfView given = votesOf(source, stretches, options, frame_rate_hz, stop, voting, camera);
+    const std::vector<ViewFit> views = fitView(given.votes, source.info().size, camera);
     LookProgress trying(told, static_cast<int>(views.size()) * frames);
     std::optional<ViewFit> fit;
     ScaleOutcome found;

@@ -14,8 +14,9 @@ struct EstimatedView {
 };
 
 /// Scale and slope of a view in which no scale shows traffic, for a vehicle that comes nearer changes its size all the
-/// time. What moves is looked at in the beginning, the middle and the end, and what fits most of it is tried there.
-/// Nothing where the chain finds no traffic under that either. Throws Error(input) where no classifier can be loaded.
+/// time. What moves, and the camera's way, is looked at in the beginning, the middle and the end, and what fits most of
+/// it is tried there. Nothing where the chain finds no traffic under that either. Throws Error(input) where no
+/// classifier can be loaded.
 std::optional<EstimatedView> estimateView(FrameSource& source, FrameRange range, const ChainOptions& options,
                                           double frame_rate_hz, const std::stop_token& stop,
                                           const ScaleProgress& told = {});

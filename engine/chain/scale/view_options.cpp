@@ -14,7 +14,8 @@ void ViewOptions::describe(ParameterVisitor& visitor) {
         "view.oblique", oblique,
         {"",
          "Before a new run, look at how metres per pixel change over the picture, as in a view at an angle, by "
-         "the size at which moving things look like vehicles. The GSD is then that of the picture's middle. "
+         "the size at which moving things look like vehicles and by the camera's way over the ground. The GSD is then "
+         "that of the picture's middle. "
          "A run that exists keeps what was found.",
          ""});
 }

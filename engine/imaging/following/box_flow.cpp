@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/geometry/angle.h"
+#include "core/robust_statistics.h"
 
 namespace eyrie {
 namespace {
@@ -25,12 +26,6 @@ struct Fit {
     Similarity map;
     int agreeing = 0;
 };
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 /// Least squares over the chosen pairs; a shift only for fewer than `least_for_turn`.
 Similarity leastSquares(const std::vector<cv::Point2d>& from, const std::vector<cv::Point2d>& to,
@@ -79,7 +74,7 @@ Fit robustFit(const std::vector<cv::Point2d>& from, const std::vector<cv::Point2
         x.push_back(to[i].x - from[i].x);
         y.push_back(to[i].y - from[i].y);
     }
-    fit.map.shift = {median(x), median(y)};
+    fit.map.shift = {medianOf(x), medianOf(y)};
     constexpr int kRounds = 3;
     std::vector<char> chosen(from.size());
     for (int round = 0; round < kRounds; ++round) {
@@ -88,7 +83,7 @@ Fit robustFit(const std::vector<cv::Point2d>& from, const std::vector<cv::Point2
             const cv::Point2d off = fit.map.apply(from[i]) - to[i];
             residuals.push_back(std::hypot(off.x, off.y));
         }
-        const double limit = std::clamp(2.5 * median(residuals), near / 2, 2 * near);
+        const double limit = std::clamp(2.5 * medianOf(residuals), near / 2, 2 * near);
         fit.agreeing = 0;
         for (std::size_t i = 0; i < from.size(); ++i) {
             chosen[i] = residuals[i] <= limit;

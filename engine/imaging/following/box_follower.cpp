@@ -67,7 +67,8 @@ BoxFollower::Step BoxFollower::advance(const cv::Mat& current, const cv::Mat& ne
     const double growth = step.by_corners ? growthOf(flow) : 1;
     step.box.length *= growth;
     step.box.width *= growth;
-    growth_ = std::sqrt(growth_ * growth_ * growth);
+    // What nothing speaks for any more dies away.
+    growth_ = step.by_corners ? growth_ * std::sqrt(growth) : std::sqrt(growth_);
     const Likeness likeness = likenessOf(next, step.box);
     const double corners = std::min(1.0, flow.agreeing / 4.0);
     step.certainty = std::clamp(
@@ -160,10 +161,11 @@ std::optional<FollowEnd> BoxFollower::judged(const Step& step, const BoxFlow& fl
     if (steps_ >= kKnownSpeedSteps && stepLength(movementTo(step.box, map) - expected) > most) {
         return FollowEnd::jump;
     }
-    // A vehicle does not stop or set off at once; a box that sticks to the ground does.
+    // A vehicle does not stop or set off at once; a box that sticks to the ground does. Near by a turn looks like that,
+    // too, but many corners see it.
     const cv::Point2d usual = map.applyToVector(box_.centre, usual_velocity_);
     const double change = stepLength((movementTo(step.box, map) + expected) * 0.5 - usual);
-    if (steps_ >= kUsualSpeedSteps && change > std::max(most * 0.35, 0.5 * stepLength(usual))) {
+    if (!step.by_corners && steps_ >= kUsualSpeedSteps && change > std::max(most * 0.35, 0.5 * stepLength(usual))) {
         return FollowEnd::jump;
     }
     if (likeness.start < options_.min_start_likeness) return FollowEnd::appearance;

@@ -1,5 +1,6 @@
 #include "imaging/following/box_patch.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
@@ -7,18 +8,31 @@ namespace eyrie {
 namespace {
 
 float sampleAt(const cv::Mat& gray, double x, double y) {
-    x = std::clamp(x, 0.0, gray.cols - 1.001);
-    y = std::clamp(y, 0.0, gray.rows - 1.001);
     const int column = static_cast<int>(x);
     const int row = static_cast<int>(y);
     const auto fx = static_cast<float>(x - column);
     const auto fy = static_cast<float>(y - row);
     const unsigned char* upper = gray.ptr(row) + column;
-    const unsigned char* lower = gray.ptr(std::min(row + 1, gray.rows - 1)) + column;
-    const int next = column + 1 < gray.cols ? 1 : 0;
-    const float top = static_cast<float>(upper[0]) * (1 - fx) + static_cast<float>(upper[next]) * fx;
-    const float bottom = static_cast<float>(lower[0]) * (1 - fx) + static_cast<float>(lower[next]) * fx;
+    const unsigned char* lower = upper + gray.step;
+    const float top = static_cast<float>(upper[0]) * (1 - fx) + static_cast<float>(upper[1]) * fx;
+    const float bottom = static_cast<float>(lower[0]) * (1 - fx) + static_cast<float>(lower[1]) * fx;
     return top * (1 - fy) + bottom * fy;
+}
+
+/// The nearest place in the picture whose neighbours to the right and below are in it, too; some for NaN.
+cv::Point2d inside(const cv::Mat& gray, cv::Point2d at) {
+    return {std::max(0.0, std::min(gray.cols - 1.001, at.x)), std::max(0.0, std::min(gray.rows - 1.001, at.y))};
+}
+
+using Values = Eigen::Map<Eigen::ArrayXf>;
+using ConstValues = Eigen::Map<const Eigen::ArrayXf>;
+
+Values arrayOf(std::vector<float>& values) {
+    return {values.data(), static_cast<Eigen::Index>(values.size())};
+}
+
+ConstValues arrayOf(const std::vector<float>& values) {
+    return {values.data(), static_cast<Eigen::Index>(values.size())};
 }
 
 }  // namespace
@@ -29,38 +43,43 @@ cv::Size BoxPatch::samplesFor(const OrientedBox& box) {
 }
 
 BoxPatch::BoxPatch(const cv::Mat& gray, const OrientedBox& box, cv::Size samples) : samples_(samples) {
-    values_.reserve(static_cast<std::size_t>(samples.area()));
+    values_.resize(static_cast<std::size_t>(samples.area()));
+    if (gray.cols < 2 || gray.rows < 2) return;
     // A little beyond the box, so that its outline counts.
     constexpr double kMargin = 1.12;
     const cv::Point2d along = box.direction() * (box.length * kMargin / samples.width);
     const cv::Point2d across =
         cv::Point2d(-box.direction().y, box.direction().x) * (box.width * kMargin / samples.height);
     const cv::Point2d corner = box.centre - along * ((samples.width - 1) / 2.0) - across * ((samples.height - 1) / 2.0);
+    const auto isInside = [&](cv::Point2d at) { return inside(gray, at) == at; };
+    float* value = values_.data();
     for (int y = 0; y < samples.height; ++y) {
-        cv::Point2d at = corner + across * static_cast<double>(y);
-        for (int x = 0; x < samples.width; ++x, at += along) values_.push_back(sampleAt(gray, at.x, at.y));
+        const cv::Point2d first = corner + across * static_cast<double>(y);
+        const bool all_inside = isInside(first) && isInside(first + along * static_cast<double>(samples.width - 1));
+        for (int x = 0; x < samples.width; ++x) {
+            const cv::Point2d at = first + along * static_cast<double>(x);
+            const cv::Point2d place = all_inside ? at : inside(gray, at);
+            *value++ = sampleAt(gray, place.x, place.y);
+        }
     }
     normalise();
 }
 
 void BoxPatch::normalise() {
-    double sum = 0;
-    for (const float value : values_) sum += static_cast<double>(value);
-    const double mean = sum / std::max<std::size_t>(1, values_.size());
-    double squares = 0;
-    for (float& value : values_) {
-        value -= static_cast<float>(mean);
-        squares += static_cast<double>(value) * static_cast<double>(value);
-    }
-    const double norm = std::sqrt(squares);
-    for (float& value : values_) value = norm > 1e-3 ? static_cast<float>(static_cast<double>(value) / norm) : 0.F;
+    if (values_.empty()) return;
+    Values values = arrayOf(values_);
+    values -= values.mean();
+    const float norm = values.matrix().norm();
+    constexpr float kFlat = 1e-3F;
+    if (norm > kFlat)
+        values /= norm;
+    else
+        values.setZero();
 }
 
 double BoxPatch::correlation(const BoxPatch& other) const {
     if (values_.size() != other.values_.size()) return 0;
-    float sum = 0;
-    for (std::size_t i = 0; i < values_.size(); ++i) sum += values_[i] * other.values_[i];
-    return static_cast<double>(sum);
+    return static_cast<double>(arrayOf(values_).matrix().dot(arrayOf(other.values_).matrix()));
 }
 
 double BoxPatch::seenOf(const BoxPatch& other) const {
@@ -99,8 +118,7 @@ double BoxPatch::seenOf(const BoxPatch& other) const {
 
 void BoxPatch::learn(const BoxPatch& other, double share) {
     if (values_.size() != other.values_.size()) return;
-    const auto weight = static_cast<float>(share);
-    for (std::size_t i = 0; i < values_.size(); ++i) values_[i] += weight * (other.values_[i] - values_[i]);
+    arrayOf(values_) += static_cast<float>(share) * (arrayOf(other.values_) - arrayOf(values_));
     normalise();
 }
 

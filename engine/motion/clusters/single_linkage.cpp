@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "motion/clusters/neighbour_grid.h"
 #include "motion/clusters/union_find.h"
@@ -27,11 +28,14 @@ void Linkage::reach(double along_px, double across_px, double smallest_px) {
 Linkage Linkage::at(cv::Point2d place) const {
     Linkage here = *this;
     here.slope = {};
-    if (slope.isFlat()) return here;
-    const double factor = slope.factorAt(place);
-    here.along = std::max(smallest, along * factor);
-    here.across = std::max(smallest, across * factor);
+    std::tie(here.along, here.across) = halfAxesAt(place);
     return here;
+}
+
+std::pair<double, double> Linkage::halfAxesAt(cv::Point2d place) const {
+    if (slope.isFlat()) return {along, across};
+    const double factor = slope.factorAt(place);
+    return {std::max(smallest, along * factor), std::max(smallest, across * factor)};
 }
 
 double Linkage::reachAmong(const std::vector<MotionVector>& vectors) const {
@@ -39,29 +43,34 @@ double Linkage::reachAmong(const std::vector<MotionVector>& vectors) const {
     double reach = std::max({smallest, std::min(along, across) * ScaleSlope::kLeast, 1e-3});
     for (const MotionVector& vector : vectors) {
         if (!finite(vector)) continue;
-        const Linkage here = at(vector.position);
-        reach = std::max({reach, here.along, here.across});
+        const auto [here_along, here_across] = halfAxesAt(vector.position);
+        reach = std::max({reach, here_along, here_across});
     }
     return reach;
 }
 
+// Asked of all pairs near each other, so what is cheap comes first and the scale, which varies, last.
 bool Linkage::joins(const MotionVector& a, const MotionVector& b) const {
-    if (!slope.isFlat()) return at((cv::Point2d(a.position) + cv::Point2d(b.position)) / 2).joins(a, b);
-    const double dx = static_cast<double>(b.position.x) - a.position.x;
-    const double dy = static_cast<double>(b.position.y) - a.position.y;
-    const double reach = std::max(along, across);
-    if (dx * dx + dy * dy > reach * reach) return false;
     const double mx = (static_cast<double>(a.velocity.x) + b.velocity.x) / 2;
     const double my = (static_cast<double>(a.velocity.y) + b.velocity.y) / 2;
     const double vx = static_cast<double>(b.velocity.x) - a.velocity.x;
     const double vy = static_cast<double>(b.velocity.y) - a.velocity.y;
-    const double speed = std::sqrt(mx * mx + my * my);
-    const double allowed = std::max(velocity_floor, velocity_share * speed);
-    if (vx * vx + vy * vy > allowed * allowed) return false;
-    if (speed <= 0) return dx * dx + dy * dy <= std::min(along, across) * std::min(along, across);
-    const double ahead = (dx * mx + dy * my) / (speed * along);
-    const double aside = (dy * mx - dx * my) / (speed * across);
-    return ahead * ahead + aside * aside <= 1;
+    const double speed_squared = mx * mx + my * my;
+    const double change_squared = vx * vx + vy * vy;
+    if (change_squared > velocity_floor * velocity_floor &&
+        change_squared > velocity_share * velocity_share * speed_squared)
+        return false;
+    const auto [ahead_px, aside_px] = halfAxesAt((cv::Point2d(a.position) + cv::Point2d(b.position)) / 2);
+    const double dx = static_cast<double>(b.position.x) - a.position.x;
+    const double dy = static_cast<double>(b.position.y) - a.position.y;
+    const double distance_squared = dx * dx + dy * dy;
+    const double farthest = std::max(ahead_px, aside_px);
+    if (distance_squared > farthest * farthest) return false;
+    const double nearest = std::min(ahead_px, aside_px);
+    if (speed_squared <= 0) return distance_squared <= nearest * nearest;
+    const double ahead = (dx * mx + dy * my) / ahead_px;
+    const double aside = (dy * mx - dx * my) / aside_px;
+    return ahead * ahead + aside * aside <= speed_squared;
 }
 
 std::vector<cv::Point2f> positionsOf(const std::vector<MotionVector>& vectors) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "core/values/motion_vector.h"
@@ -23,6 +24,9 @@ struct Linkage {
     /// The farthest that any two of the vectors may lie apart, px.
     double reachAmong(const std::vector<MotionVector>& vectors) const;
     bool joins(const MotionVector& a, const MotionVector& b) const;
+
+ private:
+    std::pair<double, double> halfAxesAt(cv::Point2d place) const;
 };
 
 /// Positions of the vectors; what is not finite, in place or velocity, lies nowhere.

@@ -21,7 +21,7 @@ bool finite(const Homography& homography) {
 }
 
 double length(cv::Point2d v) {
-    return std::hypot(v.x, v.y);
+    return std::sqrt(v.dot(v));
 }
 
 }  // namespace

@@ -27,6 +27,10 @@ class Draw {
     std::uint64_t state_ = 0x9e3779b97f4a7c15ULL;
 };
 
+cv::Point2d towardsEpipole(const cv::Vec3d& epipole, cv::Point2d position) {
+    return {epipole[0] - epipole[2] * position.x, epipole[1] - epipole[2] * position.y};
+}
+
 /// The line through a residual, homogeneous.
 cv::Vec3d lineOf(cv::Point2d p, cv::Point2d v) {
     return {-v.y, v.x, v.y * p.x - v.x * p.y};
@@ -62,8 +66,15 @@ void ParallaxTest::add(cv::Point2d position, cv::Point2d velocity) {
     residuals_.push_back({position, velocity});
 }
 
+bool ParallaxTest::onLine(const cv::Vec3d& epipole, const Residual& residual) const {
+    // As direction(…).cross(velocity) would tell, without a root for each of so many.
+    const cv::Point2d towards = towardsEpipole(epipole, residual.position);
+    const double off = towards.cross(residual.velocity);
+    return off * off <= across_ * across_ * towards.dot(towards);
+}
+
 cv::Point2d ParallaxTest::direction(const cv::Vec3d& epipole, cv::Point2d position) {
-    const cv::Point2d towards(epipole[0] - epipole[2] * position.x, epipole[1] - epipole[2] * position.y);
+    const cv::Point2d towards = towardsEpipole(epipole, position);
     const double length = std::hypot(towards.x, towards.y);
     return length > 1e-12 ? towards / length : cv::Point2d(0, 0);
 }
@@ -71,7 +82,7 @@ cv::Point2d ParallaxTest::direction(const cv::Vec3d& epipole, cv::Point2d positi
 double ParallaxTest::supportOf(const cv::Vec3d& epipole, const std::vector<Residual>& strong) const {
     double support = 0;
     for (const Residual& residual : strong) {
-        if (std::abs(direction(epipole, residual.position).cross(residual.velocity)) <= across_) support += 1;
+        if (onLine(epipole, residual)) support += 1;
     }
     return support;
 }
@@ -81,7 +92,7 @@ cv::Vec3d ParallaxTest::refined(const cv::Vec3d& epipole, const std::vector<Resi
     constexpr double kUnit = 500;
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     for (const Residual& residual : strong) {
-        if (std::abs(direction(epipole, residual.position).cross(residual.velocity)) > across_) continue;
+        if (!onLine(epipole, residual)) continue;
         const cv::Vec3d line = lineOf(residual.position / kUnit, residual.velocity);
         const Eigen::Vector3d row(line[0], line[1], line[2]);
         normal += row * row.transpose();
@@ -94,8 +105,9 @@ cv::Vec3d ParallaxTest::refined(const cv::Vec3d& epipole, const std::vector<Resi
 void ParallaxTest::finish(double sigma) {
     across_ = kOffTheLine * sigma;
     std::vector<Residual> strong;
+    const double least = kStrong * sigma;
     for (const Residual& residual : residuals_) {
-        if (std::hypot(residual.velocity.x, residual.velocity.y) > kStrong * sigma) strong.push_back(residual);
+        if (residual.velocity.dot(residual.velocity) > least * least) strong.push_back(residual);
     }
     if (strong.size() < kFewest) return;
     if (strong.size() > kMost) {

@@ -44,6 +44,7 @@ class ParallaxTest {
     };
     /// Unit vector along the epipolar line through a position.
     static cv::Point2d direction(const cv::Vec3d& epipole, cv::Point2d position);
+    bool onLine(const cv::Vec3d& epipole, const Residual& residual) const;
     double supportOf(const cv::Vec3d& epipole, const std::vector<Residual>& strong) const;
     cv::Vec3d refined(const cv::Vec3d& epipole, const std::vector<Residual>& strong) const;
 

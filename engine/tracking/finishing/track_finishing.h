@@ -64,6 +64,8 @@ struct FinishingOptions {
     void describe(ParameterVisitor& visitor);
     /// Confirmed tracks from their first detection on, otherwise unchanged (Teutsch §7.1.2).
     static FinishingOptions thesis();
+    /// Whether any step looks at the pictures of the run.
+    bool looksAtPictures() const { return follow_ends_s > 0 || trim_shadows; }
 };
 
 /// A state of a track and the frame it belongs to.

@@ -37,7 +37,7 @@ class Joiner {
  public:
     Joiner(const GroundMotion& ground, const FinishingOptions& options, const SceneScale& scale)
         : ground_(ground),
-          max_gap_(static_cast<int>(std::lround(std::min(options.join_gap_s * scale.frame_rate_hz, 1e6)))),
+          max_gap_(framesOf(options.join_gap_s, scale)),
           least_distance_(options.join_distance_px),
           distance_m_(options.join_distance_m),
           scale_(scale) {}

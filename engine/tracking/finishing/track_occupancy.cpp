@@ -33,25 +33,31 @@ void TrackOccupancy::reaches(const TrackPath& path, FrameIndex frame) {
     if (std::find(alive.begin(), alive.end(), &path) == alive.end()) alive.push_back(&path);
 }
 
-template <class Visit>
-void TrackOccupancy::visit(FrameIndex frame, Visit visit) const {
+template <class Holds>
+bool TrackOccupancy::all(FrameIndex frame, Holds holds) const {
     const auto alive = alive_.find(spanOf(frame));
-    if (alive == alive_.end()) return;
-    for (const TrackPath* path : alive->second) {
-        if (const TimedPathState* state = path->at(frame)) visit(OrientedBox(state->second.box));
-    }
+    if (alive == alive_.end()) return true;
+    return std::all_of(alive->second.begin(), alive->second.end(), [&](const TrackPath* path) {
+        const TimedPathState* state = path->at(frame);
+        return state == nullptr || holds(OrientedBox(state->second.box));
+    });
 }
 
 std::vector<OrientedBox> TrackOccupancy::in(FrameIndex frame) const {
     std::vector<OrientedBox> boxes;
-    visit(frame, [&](const OrientedBox& box) { boxes.push_back(box); });
+    all(frame, [&](const OrientedBox& box) {
+        boxes.push_back(box);
+        return true;
+    });
     return boxes;
 }
 
 bool TrackOccupancy::isFree(FrameIndex frame, const OrientedBox& box) const {
-    bool free = true;
-    visit(frame, [&](const OrientedBox& other) { free = free && overlap(other, box) <= kFree; });
-    return free;
+    return all(frame, [&](const OrientedBox& other) { return overlap(other, box) <= kFree; });
+}
+
+bool TrackOccupancy::isBare(FrameIndex frame, const OrientedBox& box) const {
+    return all(frame, [&](const OrientedBox& other) { return !(intersectionArea(box, other) > 0); });
 }
 
 }  // namespace eyrie

@@ -18,14 +18,17 @@ class TrackOccupancy {
     std::vector<OrientedBox> in(FrameIndex frame) const;
     /// Whether a box of that frame overlaps no other by more than 0.15.
     bool isFree(FrameIndex frame, const OrientedBox& box) const;
+    /// Whether it touches no other.
+    bool isBare(FrameIndex frame, const OrientedBox& box) const;
     /// To be told when a track got earlier states.
     void extended(const TrackPath& path);
     /// To be told when a track got a state in one frame.
     void reaches(const TrackPath& path, FrameIndex frame);
 
  private:
-    template <class Visit>
-    void visit(FrameIndex frame, Visit visit) const;
+    /// Whether it is so for all boxes of a frame.
+    template <class Holds>
+    bool all(FrameIndex frame, Holds holds) const;
 
     std::unordered_map<int, std::vector<const TrackPath*>> alive_;  ///< by span of frames
 };

@@ -29,22 +29,24 @@ constexpr double kCoveredOfLonger = 0.25;  ///< … share of the longer one's li
 constexpr double kLooseCovered = 0.5;      ///< … and m by which their distance scatters
 constexpr double kWholeAlone = 1.25;       ///< a part that is longer by this factor while alone is the whole then
 
-/// What a whole box adds to one of its parts, in the part's own axes; px.
+/// What a whole box adds to one of its parts, in the part's own axes; m, since it grows as the vehicle comes nearer.
 struct Growth {
     std::vector<double> front, rear, left, right;
 
-    void add(const OrientedBox& part, const OrientedBox& whole) {
+    /// `pixel`: m, at the part.
+    void add(const OrientedBox& part, const OrientedBox& whole, double pixel) {
         const cv::Point2d centre = part.toBox(whole.centre);
-        front.push_back(centre.x + (whole.length - part.length) / 2);
-        rear.push_back(-centre.x + (whole.length - part.length) / 2);
-        right.push_back(centre.y + (whole.width - part.width) / 2);
-        left.push_back(-centre.y + (whole.width - part.width) / 2);
+        front.push_back((centre.x + (whole.length - part.length) / 2) * pixel);
+        rear.push_back((-centre.x + (whole.length - part.length) / 2) * pixel);
+        right.push_back((centre.y + (whole.width - part.width) / 2) * pixel);
+        left.push_back((-centre.y + (whole.width - part.width) / 2) * pixel);
     }
-    OrientedBox applied(const OrientedBox& part) const {
-        const double f = medianOf(front);
-        const double b = medianOf(rear);
-        const double l = medianOf(left);
-        const double r = medianOf(right);
+    /// `metre`: px, at the part.
+    OrientedBox applied(const OrientedBox& part, double metre) const {
+        const double f = medianOf(front) * metre;
+        const double b = medianOf(rear) * metre;
+        const double l = medianOf(left) * metre;
+        const double r = medianOf(right) * metre;
         OrientedBox whole = part;
         whole.centre = part.toImage({(f - b) / 2, (r - l) / 2});
         whole.length = part.length + f + b;
@@ -62,67 +64,75 @@ struct Whole {
 std::optional<Whole> wholeOf(const TrackPath& leader, const TrackPath& other, const SceneScale& everywhere,
                              PartsOfVehicle wanted) {
     Whole whole;
-    std::vector<double> along, across, gaps, covered, parts, lengths, widths;
+    std::vector<double> along, across, gaps, covered, parts, lengths, widths, pixels;  // m, but for the shares covered
     double travelled = 0;
     forSharedFrames(leader, other, [&](const MovingState& state, const MovingState& of_other) {
         const OrientedBox& part = of_other.box;
         if (std::abs(axisTurnBetween(state.box.heading, part.heading)) > kMostTurn) return;
+        const double pixel = 1 / everywhere.at(part.centre).px(1);
+        pixels.push_back(pixel);
         const cv::Point2d offset = state.box.toBox(part.centre);
-        along.push_back(offset.x);
-        across.push_back(std::abs(offset.y));
-        gaps.push_back(std::abs(offset.x) - (state.box.length + part.length) / 2);
+        along.push_back(offset.x * pixel);
+        across.push_back(std::abs(offset.y) * pixel);
+        gaps.push_back((std::abs(offset.x) - (state.box.length + part.length) / 2) * pixel);
         covered.push_back(containment(state.box, part));
-        parts.push_back(std::min(state.box.length, part.length));
-        travelled += std::hypot(state.velocity.x, state.velocity.y);
+        parts.push_back(std::min(state.box.length, part.length) * pixel);
+        travelled += std::hypot(state.velocity.x, state.velocity.y) * pixel;
         const OrientedBox both = unionBox(state.box, part);
-        lengths.push_back(both.length);
-        widths.push_back(both.width);
-        whole.of_leader.add(state.box, both);
-        whole.of_other.add(part, both);
+        lengths.push_back(both.length * pixel);
+        widths.push_back(both.width * pixel);
+        whole.of_leader.add(state.box, both, pixel);
+        whole.of_other.add(part, both, pixel);
     });
-    const SceneScale scale = everywhere.at(middleOf(other));
     const auto frames = static_cast<double>(along.size());
     const auto [shorter, longer] =
         std::minmax({static_cast<double>(leader.states.size()), static_cast<double>(other.states.size())});
     const bool overlap = wanted == PartsOfVehicle::overlapping;
-    if (frames < std::max(5.0, kSharedSeconds * scale.frame_rate_hz)) return {};
+    if (frames < std::max(5.0, kSharedSeconds * everywhere.frame_rate_hz)) return {};
     if (frames < (overlap ? kCoveredOfLonger * longer : kPartOfShorter * shorter)) return {};
     if (overlap && medianOf(covered) < kCovered) return {};
-    if (travelled < scale.px(overlap ? kTravelledCovered : kTravelled)) return {};
-    if (travelled / frames < scale.pxPerFrame(kSlowestForParts)) return {};
-    if (medianOf(gaps) > scale.px(kPartGap) + kPixel) return {};
-    if (!overlap && medianOf(across) > scale.px(kAside) + kPixel) return {};
-    if (spreadOf(along) > scale.px(overlap ? kLooseCovered : kLoose) + kPixel / 2) return {};
-    const double metre = scale.px(overlap && !scale.gsd_known ? 1 / kEstimatedShare : 1);
+    if (travelled < (overlap ? kTravelledCovered : kTravelled)) return {};
+    if (travelled / frames < kSlowestForParts / everywhere.frame_rate_hz) return {};
+    const double tolerance = kPixel * medianOf(pixels);
+    if (medianOf(gaps) > kPartGap + tolerance) return {};
+    if (!overlap && medianOf(across) > kAside + tolerance) return {};
+    if (spreadOf(along) > (overlap ? kLooseCovered : kLoose) + tolerance / 2) return {};
+    const double metre = overlap && !everywhere.gsd_known ? 1 / kEstimatedShare : 1;
     if (medianOf(parts) > kPart * metre) return {};
-    if (medianOf(lengths) > kLongest * metre || medianOf(widths) > kWidest * metre + 2 * kPixel) return {};
+    if (medianOf(lengths) > kLongest * metre || medianOf(widths) > kWidest * metre + 2 * tolerance) return {};
     return whole;
 }
 
 /// Whether a track is a part of the vehicle also where the other part is not seen: it is no longer there than beside
 /// it.
-bool partThroughout(const TrackPath& path, const TrackPath& other) {
-    std::vector<double> beside, alone;
-    for (const auto& [frame, state] : path.states)
-        (other.at(frame) != nullptr ? beside : alone).push_back(state.box.length);
+bool partThroughout(const TrackPath& path, const TrackPath& other, const SceneScale& everywhere) {
+    std::vector<double> beside, alone;  // m
+    for (const auto& [frame, state] : path.states) {
+        const OrientedBox box = state.box;
+        (other.at(frame) != nullptr ? beside : alone).push_back(box.length / everywhere.at(box.centre).px(1));
+    }
     return beside.empty() || alone.empty() || medianOf(alone) < kWholeAlone * medianOf(beside);
 }
 
-void join(TrackPath& leader, const TrackPath& other, const Whole& whole) {
-    const bool leader_throughout = partThroughout(leader, other);
-    const bool other_throughout = partThroughout(other, leader);
+void join(TrackPath& leader, const TrackPath& other, const Whole& whole, const SceneScale& scale) {
+    const bool leader_throughout = partThroughout(leader, other, scale);
+    const bool other_throughout = partThroughout(other, leader, scale);
     std::vector<TimedPathState> joined;
     joined.reserve(leader.states.size() + other.states.size());
+    const auto grow = [&](PathState& state, const Growth& by) {
+        const OrientedBox part = state.box;
+        state.box = by.applied(part, scale.at(part.centre).px(1));
+    };
     auto b = other.states.begin();
     const auto takeOther = [&] {
         joined.push_back(*b++);
-        if (other_throughout) joined.back().second.box = whole.of_other.applied(joined.back().second.box);
+        if (other_throughout) grow(joined.back().second, whole.of_other);
     };
     for (TimedPathState& state : leader.states) {
         while (b != other.states.end() && b->first < state.first) takeOther();
         const bool beside = b != other.states.end() && b->first == state.first;
         if (beside) ++b;
-        if (beside || leader_throughout) state.second.box = whole.of_leader.applied(state.second.box);
+        if (beside || leader_throughout) grow(state.second, whole.of_leader);
         joined.push_back(state);
     }
     while (b != other.states.end()) takeOther();
@@ -153,7 +163,7 @@ void joinParts(std::vector<TrackPath>& paths, const SceneScale& scale, PartsOfVe
                 if (other.states.empty()) continue;
                 const auto whole = wholeOf(leader, other, scale, wanted);
                 if (!whole) continue;
-                join(leader, other, *whole);
+                join(leader, other, *whole, scale);
                 other.states.clear();
                 grown = true;
                 // It lives longer now, beside others, too.

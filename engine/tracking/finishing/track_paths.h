@@ -103,7 +103,7 @@ void extendToRest(std::vector<TrackPath>& paths, const GroundMotion& ground, int
 /// before they were found are extended back to it.
 void extendBack(std::vector<TrackPath>& paths, const GroundMotion& ground, int frames, int entry_frames);
 
-/// Tracks that were followed on, by where they were.
+/// Tracks that were followed on, or met another at once, by where they were.
 struct FollowedEnds {
     std::set<TrackId> begins;
     std::set<TrackId> ends;

@@ -25,6 +25,7 @@ constexpr double kHardestBraking = 10;      ///< m/s²; a box that slides off on
 constexpr double kBrakingSeconds = 0.4;     ///< over which that is measured …
 constexpr double kBrakingFewestFrames = 3;  ///< … and frames, at least
 constexpr double kUsualSeconds = 0.28;      ///< in which a vehicle's motion changes little
+constexpr double kStandingPerSecond = 10;   ///< px; up to that it waits
 constexpr double kBend = 0.5;               ///< cosine of the turn in that time up to which it is a bend
 constexpr double kPlaceError = 1;           ///< px by which both ends of that may be off
 constexpr double kJumpShare = 0.25;     ///< of a vehicle's size by which its speed may change in 0.04 s, or in a frame
@@ -38,7 +39,8 @@ bool wasSeen(const TimedPathState& state) {
 
 FollowOptions followOptions(double frame_rate_hz) {
     FollowOptions options;
-    options.usual_share = std::clamp(1 / (kUsualSeconds * frame_rate_hz), options.usual_share, 0.5);
+    options.usual_share = std::min(1 / (kUsualSeconds * frame_rate_hz), 0.5);
+    options.max_standing_px = std::min(options.max_standing_px, kStandingPerSecond / frame_rate_hz);
     options.corners_to_grow = kManyCorners;
     options.size_to_grow_px = kNearBy;
     options.max_speed_change_share = kJumpShare * std::clamp(1 / (0.04 * frame_rate_hz), 1.0, 2.0);
@@ -55,9 +57,12 @@ class HeldPictures {
         if (!pictures_.empty() && last_ + 1 != frame) pictures_.clear();
         last_ = frame;
         pictures_.push_back(source_(frame));
-        const std::size_t bytes = std::max<std::size_t>(1, pictures_.back().total());
-        while (pictures_.size() > std::max<std::size_t>(2, std::min(frames_, kMostHeldBytes / bytes)))
-            pictures_.pop_front();
+        while (pictures_.size() > mostOf(pictures_.back().size())) pictures_.pop_front();
+    }
+    /// As many of that size as are held.
+    std::size_t mostOf(cv::Size size) const {
+        const auto bytes = std::max<std::size_t>(1, static_cast<std::size_t>(size.area()));
+        return std::max<std::size_t>(2, std::min(frames_, kMostHeldBytes / bytes));
     }
     /// Null where it is not held or could not be read.
     const cv::Mat* at(FrameIndex frame) const {
@@ -112,13 +117,16 @@ class EndFollower {
             state_.velocity = follower_.usualVelocity() * way_;
         }
         if (areaInImage(state_.box, picture->size()) < kFollowedInImage * state_.box.area()) return std::nullopt;
-        if (!taken.isFree(to, state_.box)) return std::nullopt;
+        met_ = !taken.isFree(to, state_.box);
+        if (met_) return std::nullopt;
         state_.origin = StateOrigin::reconstructed;
         if (way_ < 0) state_.hits = 0;
         frame_ = to;
         return TimedPathState{to, state_};
     }
 
+    /// Whether it ended since there is another track where it would go on.
+    bool met() const { return met_; }
     /// How many of the states found last are not to be trusted now that it has ended.
     std::size_t doubtful() const { return braked_ ? window_ - 1 : 0; }
 
@@ -164,6 +172,7 @@ class EndFollower {
     std::size_t window_ = 0;         ///< frames
     double allowed_change_ = 0;      ///< px/frame
     bool braked_ = false;
+    bool met_ = false;
 };
 
 /// Goes through the run once, in the order of its frames: those who end are followed on as the pictures come, those who
@@ -193,7 +202,8 @@ class EndFollowing {
 
     FollowedEnds run() {
         for (const auto& [frame, tracks] : begins_) {
-            for (FrameIndex each = std::max(0, frame - frames_); each <= frame; ++each) want(each);
+            const FrameIndex held = static_cast<FrameIndex>(pictures_.mostOf(ground_.imageSize(frame))) - 1;
+            for (FrameIndex each = std::max(0, frame - held); each <= frame; ++each) want(each);
         }
         for (const auto& [frame, tracks] : ends_) wanted_.insert(frame);
         while (!wanted_.empty()) {
@@ -256,7 +266,7 @@ class EndFollowing {
             }
             const auto gained = static_cast<std::size_t>(path.lastFrame() - start);
             path.states.resize(path.states.size() - std::min(gained, follower.doubtful()));
-            if (path.lastFrame() > start) followed_.ends.insert(path.id);
+            if (path.lastFrame() > start || follower.met()) followed_.ends.insert(path.id);
             each = active_.erase(each);
         }
     }
@@ -275,7 +285,7 @@ class EndFollowing {
             found.push_back(*state);
         }
         found.resize(found.size() - std::min(found.size(), follower.doubtful()));
-        if (!found.empty()) followed_.begins.insert(path.id);
+        if (!found.empty() || follower.met()) followed_.begins.insert(path.id);
         // What was guessed stays where the pictures tell nothing.
         for (std::size_t i = found.size(); i < guessed.size(); ++i) found.push_back(guessed[guessed.size() - 1 - i]);
         prepend(path, found);

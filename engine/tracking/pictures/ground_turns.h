@@ -10,8 +10,8 @@
 namespace eyrie {
 
 /// How the ground is turned and enlarged in each picture against the first one of its stretch: the frames that are
-/// registered to each other without a gap, a limited time. What lies on the ground in one direction, as shadows do, is
-/// carried so.
+/// registered to each other without a gap, a limited time and zoom. What lies on the ground in one direction, as
+/// shadows do, is carried so.
 class GroundTurns {
  public:
     /// Of the frames `first` … `last`, measured in the middle of the pictures. `longest`: frames of a stretch; errors
@@ -21,7 +21,7 @@ class GroundTurns {
     struct Turn {
         FrameIndex stretch = 0;  ///< the first frame of its stretch
         double angle = 0;        ///< radians, clockwise on screen
-        double enlargement = 1;
+        double enlargement = 1;  ///< beyond what the slope of the scale tells of the place
     };
     /// `frame` must be one of them.
     const Turn& at(FrameIndex frame) const { return turns_[static_cast<std::size_t>(frame - first_)]; }

@@ -49,10 +49,12 @@ SilhouetteGrid::SilhouetteGrid(const OrientedBox& box, double margin, double ste
 cv::Mat SilhouetteGrid::sampled(const cv::Mat& gray, const cv::Matx33d& picture_from_here) const {
     cv::Mat xs(places_, CV_32FC1);
     cv::Mat ys(places_, CV_32FC1);
+    const cv::Point2d along = box_.direction() * step_;
+    const cv::Point2d across(-along.y, along.x);
     for (int y = 0; y < places_.height; ++y) {
+        const cv::Point2d row = box_.centre + across * (y + 0.5 - places_.height / 2.0);
         for (int x = 0; x < places_.width; ++x) {
-            const cv::Point2d here =
-                box_.toImage({(x + 0.5 - places_.width / 2.0) * step_, (y + 0.5 - places_.height / 2.0) * step_});
+            const cv::Point2d here = row + along * (x + 0.5 - places_.width / 2.0);
             const cv::Vec3d there = picture_from_here * cv::Vec3d(here.x, here.y, 1);
             const double px = there[0] / there[2];
             const double py = there[1] / there[2];

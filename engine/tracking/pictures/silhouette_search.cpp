@@ -88,9 +88,7 @@ class SilhouetteSearch::Plan {
         const double margin = 2 * kClear * scale_.at(box.centre).px(kMarginAbout);
         const OrientedBox place{there.point(), (box.length + margin) * there.scale(),
                                 (box.width + margin) * there.scale(), there.turned(box.heading)};
-        const std::vector<OrientedBox> others = taken_.in(frame);
-        return std::none_of(others.begin(), others.end(),
-                            [&](const OrientedBox& other) { return intersectionArea(place, other) > 0; });
+        return taken_.isBare(frame, place);
     }
 
     const std::vector<TrackPath>& paths_;

@@ -73,6 +73,31 @@ TEST(OverlappingParts, DoNotGrowTheBoxOfWhatIsWholeWhileAlone) {
     }
 }
 
+TEST(OverlappingParts, GrowInMetresAsTheVehicleComesNearer) {
+    // A van in two parts, of which the rear is seen while it is far; three times as near it is still no whole.
+    SceneScale scale = kFourToAMetre;
+    scale.slope = {0, 0.003, 320, 300};
+    const auto part = [&](double y, double behind) {
+        const double factor = scale.slope.factorAt({320, y});
+        TrackState state;
+        state.box = {{320, y - behind * factor}, 10 * factor, 8 * factor, CV_PI / 2};
+        state.velocity = {0, 4};
+        state.status = TrackStatus::confirmed;
+        return PathState(state);
+    };
+    std::vector<TrackPath> paths{{1, {}}, {2, {}}};
+    for (FrameIndex frame = 0; frame < 80; ++frame) {
+        paths[0].states.emplace_back(frame, part(100 + 4 * frame, 0));
+        if (frame < 30) paths[1].states.emplace_back(frame, part(100 + 4 * frame, 11));
+    }
+    joinParts(paths, scale, PartsOfVehicle::in_line);
+    ASSERT_EQ(paths.size(), 1U);
+    for (const std::size_t i : {10, 29, 60, 79}) {
+        const double factor = scale.slope.factorAt({320, 100 + 4.0 * static_cast<double>(i)});
+        EXPECT_NEAR(paths[0].states[i].second.box.length, 21 * factor, 0.12 * factor * 21) << i;
+    }
+}
+
 TEST(OverlappingParts, ShareATenthOfTheSmaller) {
     Lorry lorry;
     for (const double side : {-1.0, 1.0}) {

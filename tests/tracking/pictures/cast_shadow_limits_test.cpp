@@ -164,7 +164,7 @@ TEST(CastShadowLimits, AStretchWithoutOneDoesNotKeepTheNextFromIts) {
 }
 
 TEST(CastShadowLimits, AMetreIsOneHoweverNearTheCameraAndTheVehicle) {
-    constexpr double kFactor = 1.02;
+    constexpr double kFactor = 1.01;
     std::vector<SilhouetteLook> looks;
     for (int i = 0; i < 6; ++i) {
         const FrameIndex frame = 6 * i;

@@ -228,4 +228,12 @@ TEST(EndFollowing, tracksThatMeetBecomeOneUnderTheOlderId) {
     EXPECT_EQ(idsOf(car.finished()), (std::set<TrackId>{7}));
 }
 
+TEST(EndFollowing, tracksThatMeetWithoutAGapBecomeOneToo) {
+    LateCar car;
+    // Too large to be taken for the same by its box.
+    for (FrameIndex frame = 0; frame < kFound; ++frame) car.add(7, frame, {LateCar::boxAt(frame).centre, 38, 17, 0});
+    EXPECT_EQ(idsOf(car.finished(false)), (std::set<TrackId>{1, 7}));
+    EXPECT_EQ(idsOf(car.finished()), (std::set<TrackId>{7}));
+}
+
 }  // namespace eyrie::end_following_test
