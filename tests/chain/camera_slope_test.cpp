@@ -89,13 +89,13 @@ TEST(CameraSlope, WhatIsNoPlaneSaysNothing) {
     for (const double growth : {-0.5, 0.0, 0.5}) EXPECT_EQ(found.cost(growth), 0) << growth;
 }
 
-TEST(CameraSlope, AShortWaySaysNothingAndEachStretchNoMoreThanSix) {
+TEST(CameraSlope, AShortWaySaysNothingAndEachStretchNoMoreThanTen) {
     CameraSlope found(kImage);
     const Flight flight{0.6, {0.003, 0}};
     found.add(std::vector<cv::Matx33d>(7, flight.step()));
     EXPECT_EQ(found.cost(0), 0);
-    EXPECT_NEAR(flight.slope().cost(-0.5), 6, 1e-9);
-    EXPECT_NEAR(flight.slope(3).cost(-0.5), 18, 1e-9);
+    EXPECT_NEAR(flight.slope().cost(-0.5), 10, 1e-9);
+    EXPECT_NEAR(flight.slope(3).cost(-0.5), 30, 1e-9);
     EXPECT_LT(flight.slope(3).cost(0.6), 0.3);
     EXPECT_EQ(flight.slope().cost(9), flight.slope().cost(CameraSlope::kSteepest + 2)) << "the last one goes on";
 }
@@ -127,6 +127,25 @@ TEST(ScaleSlopeFit, WhereNothingDrivesTheCameraTellsTheSlopeAlone) {
     EXPECT_EQ(found.right_per_px, 0);
     EXPECT_TRUE(fitSlope({}, kImage, 0.1, Flight{0.1, {0.002, 0.001}}.slope()).isFlat()) << "it hardly matters";
     EXPECT_TRUE(fitSlope({}, kImage, 0.1, Flight{0, {0.002, 0.001}}.slope()).isFlat());
+}
+
+TEST(ScaleSlopeFit, AScaleReadOffVehiclesHoldsWhereTheyAre) {
+    const Flight flight{0.6, {0.002, 0.001}};
+    constexpr double kGsd = 0.2;
+    const auto votes = [](double gsd) {
+        std::vector<ScaleVote> all;
+        for (int i = 0; i < 8; ++i) all.push_back({cv::Point2d(300 + 40 * i, 90 + i % 3), gsd, 8});
+        return all;
+    };
+    // At the upper edge of the traffic a metre covers .6 of what it does in the middle.
+    const ScaleSlope there = fitSlope(votes(kGsd), kImage, kGsd, flight.slope());
+    EXPECT_EQ(there.centre(), cv::Point2d(460, 91));
+    EXPECT_NEAR(there.factorAt({480, 269.5}), 1 / 0.6, 0.06) << "the same slope, counted from there";
+    const ScaleSlope middle = fitSlope(votes(kGsd / 0.6), kImage, kGsd, flight.slope());
+    EXPECT_EQ(middle.centre(), cv::Point2d(479.5, 269.5)) << "they say that it is that of the middle";
+    std::vector<ScaleVote> few = votes(kGsd);
+    few.resize(5);
+    EXPECT_EQ(fitSlope(few, kImage, kGsd, flight.slope()).centre(), cv::Point2d(479.5, 269.5));
 }
 
 TEST(ScaleSlopeFit, ManyVehiclesOutweighTheCamera) {

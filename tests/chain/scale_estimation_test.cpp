@@ -66,7 +66,7 @@ std::unique_ptr<FrameSource> sharedSource(const char* folder, double frame_rate_
 TEST(ScaleEstimation, findsTheScaleOfRealTraffic) {
     EYRIE_NEED_SHARED_DATA("collage_day");
     const auto source = openSource(test::sharedData("collage_day/frames"));
-    const auto [scale, basis, estimate, why_not] = chooseScale(*source, {}, fromAbove(), {}, {});
+    const auto [scale, basis, of_vehicles, estimate, why_not] = chooseScale(*source, {}, fromAbove(), {}, {});
     EXPECT_FALSE(scale.gsd_known) << "a guess is no knowledge";
     EXPECT_NEAR(scale.gsd_m_per_px, 0.2, kAllowed * 0.2);
     ASSERT_TRUE(estimate);
@@ -109,6 +109,22 @@ TEST(ScaleEstimation, aStatedScaleIsTakenAsItIsAndItIsKeptWhoStatedIt) {
         EXPECT_DOUBLE_EQ(chosen.scale.gsd_m_per_px, 0.31);
         EXPECT_FALSE(chosen.estimate) << "nothing to look for";
     }
+}
+
+TEST(ScaleEstimation, aScaleReadOffVehiclesOfAnObliqueViewIsMovedToTheMiddleOneThatWasMeasuredIsNot) {
+    EYRIE_NEED_SHARED_DATA("uavdt_m1003");
+    const auto source = openSource(test::sharedData("uavdt_m1003/img1"));
+    const ChosenScale by_person = chooseScale(*source, {}, ChainOptions{}, {0.2, ScaleOrigin::given}, {});
+    ASSERT_FALSE(by_person.scale.slope.isFlat()) << "the flight tells it; few vehicles drive there";
+    EXPECT_NEAR(by_person.scale.slope.down_per_px * 270, 0.5, 0.1);
+    EXPECT_EQ(by_person.gsd_of_vehicles, 0.2);
+    EXPECT_NEAR(by_person.scale.gsd_m_per_px, 0.175, 0.02);
+    EXPECT_EQ(by_person.scale.slope.centre(), cv::Point2d(511.5, 269.5));
+    EXPECT_TRUE(by_person.scale.gsd_known);
+    const ChosenScale measured = chooseScale(*source, {}, ChainOptions{}, {0.2, ScaleOrigin::metadata}, {});
+    EXPECT_EQ(measured.scale.gsd_m_per_px, 0.2);
+    EXPECT_EQ(measured.scale.slope, by_person.scale.slope);
+    EXPECT_FALSE(measured.gsd_of_vehicles);
 }
 
 TEST(ScaleEstimation, whatASourceKnowsItselfCountsAsGiven) {

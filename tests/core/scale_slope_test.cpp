@@ -21,6 +21,17 @@ TEST(ScaleSlope, PixelsPerMetreGrowWithTheDistanceFromTheHorizon) {
     EXPECT_DOUBLE_EQ(both.factorAt({50, 60}), 1.2);
 }
 
+TEST(ScaleSlope, CountedFromAnotherPlaceItIsTheSame) {
+    const ScaleSlope middle = ScaleSlope::ofPicture({640, 360}, 0.0005, 0.003);
+    const ScaleSlope there = middle.countedFrom({100, 250});
+    EXPECT_EQ(there.centre(), cv::Point2d(100, 250));
+    for (const cv::Point2d place : {cv::Point2d(100, 250), cv::Point2d(500, 90), cv::Point2d(319.5, 179.5)})
+        EXPECT_NEAR(there.factorAt(place), middle.factorAt(place) / middle.factorAt({100, 250}), 1e-12);
+    const ScaleSlope back = there.countedFrom(middle.centre());
+    EXPECT_NEAR(back.right_per_px, middle.right_per_px, 1e-12);
+    EXPECT_NEAR(back.down_per_px, middle.down_per_px, 1e-12);
+}
+
 TEST(ScaleSlope, BeyondTheHorizonNothingGrowsOrShrinksFurther) {
     EXPECT_EQ(kTilted.factorAt({100, -1000}), ScaleSlope::kLeast);
     EXPECT_EQ(kTilted.factorAt({100, 9999}), ScaleSlope::kMost);

@@ -106,8 +106,15 @@ std::vector<std::string> remarksOn(const StatedScale& stated) {
 
 std::vector<std::string> remarksOn(const ChosenScale& chosen) {
     if (!chosen.why_not.empty()) return {"The scale is not estimated, which needs a classifier: " + chosen.why_not};
-    if (chosen.estimate) return {estimateText(*chosen.estimate)};
-    return {};
+    std::vector<std::string> remarks;
+    if (chosen.estimate) remarks.push_back(estimateText(*chosen.estimate));
+    if (chosen.gsd_of_vehicles) {
+        remarks.push_back(
+            formatted("The view is oblique, and %.2g m/px is the scale where vehicles drive; in the middle "
+                      "of the picture it is %.2g m/px",
+                      *chosen.gsd_of_vehicles, chosen.scale.gsd_m_per_px));
+    }
+    return remarks;
 }
 
 std::vector<std::string> remarksOn(const StatedScale& stated, const ChosenScale& chosen) {

@@ -25,7 +25,7 @@ constexpr double kNearHorizon = 0.2;                  ///< scale against the mid
 constexpr int kRounds = 5;
 constexpr double kNoPlane = 2.5;       ///< cost of the best growth from which on it is no plane
 constexpr double kGrowthError = 0.06;  ///< relief, and the tilt of a camera that moves
-constexpr double kMostOfStretch = 6;   ///< cost; what a stretch says may be wrong
+constexpr double kMostOfStretch = 10;  ///< cost; what a stretch says may be wrong
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 

@@ -82,6 +82,18 @@ ScaleBasis basisOfChoice(const SceneScale& scale, const StatedScale& stated,
     return {ScaleOrigin::estimated, estimate->uncertainty, estimate->vehicles};
 }
 
+/// Runs keep the scale of the picture's middle. `measured` there, it stays as it is.
+void countFromMiddle(ChosenScale& chosen, cv::Size image, bool measured) {
+    SceneScale& scale = chosen.scale;
+    const cv::Point2d middle = ScaleSlope::ofPicture(image, 0, 0).centre();
+    if (scale.slope.isFlat() || scale.slope.centre() == middle) return;
+    if (!measured) {
+        chosen.gsd_of_vehicles = scale.gsd_m_per_px;
+        scale.gsd_m_per_px = scale.at(middle).gsd_m_per_px;
+    }
+    scale.slope = scale.slope.countedFrom(middle);
+}
+
 /// What the traffic says of the scale at the middle of the picture.
 std::optional<ScaleEstimate> estimateMiddle(FrameSource& source, FrameRange range, const ChainOptions& options,
                                             double frame_rate_hz, const std::stop_token& stop,
@@ -129,6 +141,8 @@ ChosenScale chooseScale(FrameSource& source, FrameRange range, const ChainOption
         }
     } else {
         scale.slope = slopeFor(source, range, options, scale, stop, told);
+        const bool measured = scale.gsd_known && stated.origin == ScaleOrigin::metadata;
+        countFromMiddle(chosen, source.info().size, measured);
     }
     chosen.basis = basisOfChoice(scale, stated, chosen.estimate);
     return chosen;

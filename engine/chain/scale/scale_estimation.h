@@ -23,6 +23,9 @@ using ScaleProgress = std::function<void(const RunProgress&)>;
 struct ChosenScale {
     SceneScale scale;
     ScaleBasis basis;
+    /// The scale that was stated or estimated, where it is that of the vehicles' places in an oblique view rather than
+    /// of its middle; m/px.
+    std::optional<double> gsd_of_vehicles;
     std::optional<ScaleEstimate> estimate;  ///< what was read off the traffic, where nothing else was known
     /// Where nothing was looked for, as no classifier can be loaded and the run itself needs none: the reason, for
     /// people.
@@ -44,7 +47,8 @@ ChosenScale chooseScale(FrameSource& source, FrameRange range, const ChainOption
                         const std::stop_token& stop, const ScaleProgress& told = {});
 
 /// How a scale that is known in the middle of the picture changes over it, where `view.oblique` asks for that; flat
-/// otherwise, and where nothing of the scale is known. Part of what chooseScale() does.
+/// otherwise, and where nothing of the scale is known. Part of what chooseScale() does. The scale is that of the
+/// slope's centre, which may lie where the vehicles are; see fitSlope().
 ScaleSlope slopeFor(FrameSource& source, FrameRange range, const ChainOptions& options, const SceneScale& scale,
                     const std::stop_token& stop, const ScaleProgress& told = {});
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/robust_statistics.h"
+
 namespace eyrie {
 namespace {
 
@@ -18,8 +20,10 @@ constexpr double kGrowthStep = 0.05;    ///< of growths and of the logarithm
 constexpr int kMostAside = 6;           ///< steps
 constexpr int kMostDown = 18;
 constexpr int kMostOff = 8;
-constexpr double kSaved = 5;          ///< cost that a slope must save
-constexpr double kWorthwhile = 0.15;  ///< growth from the middle of the picture to an edge
+constexpr double kSaved = 5;               ///< cost that a slope must save
+constexpr std::size_t kFewestToPlace = 6;  ///< votes that say where a scale holds …
+constexpr double kSavedByPlace = 0.5;      ///< … and cost that that must save
+constexpr double kWorthwhile = 0.15;       ///< growth from the middle of the picture to an edge
 
 // A view of which nothing is known.
 constexpr double kLeastGrowth = 0.3;       ///< from the middle of the picture to its lower edge …
@@ -53,6 +57,54 @@ double costOf(double right, double down, const std::vector<ScaleVote>& votes, cv
         best = std::min(best, kIndependent * cost + squared(step * kGrowthStep / kMiddleError) / 2);
     }
     return best + squared(right / kLevelHorizon) / 2 + squared(down / kTilted) / 2;
+}
+
+/// The slope that the votes and the camera together make likeliest; flat unless it is far likelier than none.
+ScaleSlope bestSlope(const std::vector<ScaleVote>& votes, cv::Size image, double gsd_m_per_px,
+                     const CameraSlope& camera) {
+    const auto costOfBoth = [&](double to_right, double downwards) {
+        return costOf(to_right, downwards, votes, image, gsd_m_per_px) + camera.cost(downwards);
+    };
+    double least = 1e300;
+    double right = 0;
+    double down = 0;
+    for (int aside = -kMostAside; aside <= kMostAside; ++aside) {
+        for (int below = -kMostDown; below <= kMostDown; ++below) {
+            const double cost = costOfBoth(aside * kGrowthStep, below * kGrowthStep);
+            if (cost >= least) continue;
+            least = cost;
+            right = aside * kGrowthStep;
+            down = below * kGrowthStep;
+        }
+    }
+    if (std::max(std::abs(right), std::abs(down)) < kWorthwhile) return {};
+    if (costOfBoth(0, 0) - least < kSaved) return {};
+    return ScaleSlope::ofPicture(image, right / (image.width / 2.0), down / (image.height / 2.0));
+}
+
+/// How far votes are off a scale that changes so.
+double costUnder(const ScaleSlope& slope, const std::vector<ScaleVote>& votes, double gsd_m_per_px) {
+    double cost = 0;
+    for (const ScaleVote& vote : votes) {
+        const double off = std::log(gsd_m_per_px / vote.gsd_m_per_px / slope.factorAt(vote.place));
+        cost += kIndependent * std::min(squared(off / kVoteSpread) / 2, kFarOff);
+    }
+    return cost;
+}
+
+/// The same slope, counted from where the vehicles are if they clearly say that the scale holds there: whoever reads a
+/// scale off vehicles, as people and estimates do, reads that of their place.
+ScaleSlope heldWhereVehiclesAre(const ScaleSlope& slope, const std::vector<ScaleVote>& votes, double gsd_m_per_px) {
+    if (votes.size() < kFewestToPlace) return slope;
+    std::vector<double> across;
+    std::vector<double> down;
+    for (const ScaleVote& vote : votes) {
+        across.push_back(vote.place.x);
+        down.push_back(vote.place.y);
+    }
+    const ScaleSlope there = slope.countedFrom({medianOf(across), medianOf(down)});
+    const double saved = costUnder(slope, votes, gsd_m_per_px) - costUnder(there, votes, gsd_m_per_px);
+    return saved >= kSavedByPlace ? there : slope;
 }
 
 /// What a growth of a view costs before any vote: as that of fitSlope(), but steep views are not ruled out.
@@ -114,24 +166,10 @@ std::vector<ViewFit> fitView(const std::vector<ScaleVote>& votes, cv::Size image
 ScaleSlope fitSlope(const std::vector<ScaleVote>& all_votes, cv::Size image, double gsd_m_per_px,
                     const CameraSlope& camera) {
     const std::vector<ScaleVote> votes = all_votes.size() < kFewestVotes ? std::vector<ScaleVote>() : all_votes;
-    const auto costOfBoth = [&](double to_right, double downwards) {
-        return costOf(to_right, downwards, votes, image, gsd_m_per_px) + camera.cost(downwards);
-    };
-    double least = 1e300;
-    double right = 0;
-    double down = 0;
-    for (int aside = -kMostAside; aside <= kMostAside; ++aside) {
-        for (int below = -kMostDown; below <= kMostDown; ++below) {
-            const double cost = costOfBoth(aside * kGrowthStep, below * kGrowthStep);
-            if (cost >= least) continue;
-            least = cost;
-            right = aside * kGrowthStep;
-            down = below * kGrowthStep;
-        }
-    }
-    if (std::max(std::abs(right), std::abs(down)) < kWorthwhile) return {};
-    if (costOfBoth(0, 0) - least < kSaved) return {};
-    return ScaleSlope::ofPicture(image, right / (image.width / 2.0), down / (image.height / 2.0));
+    const ScaleSlope by_vehicles = bestSlope(votes, image, gsd_m_per_px, CameraSlope(image));
+    const ScaleSlope slope = bestSlope(votes, image, gsd_m_per_px, camera);
+    const bool by_camera = by_vehicles.isFlat() && !slope.isFlat();
+    return by_camera ? heldWhereVehiclesAre(slope, all_votes, gsd_m_per_px) : slope;
 }
 
 }  // namespace eyrie

@@ -27,6 +27,11 @@ struct ScaleSlope {
 
     cv::Point2d centre() const { return {centre_x, centre_y}; }
     bool isFlat() const { return right_per_px == 0 && down_per_px == 0; }
+    /// The same slope with the growth counted from another place, where the scale is the given one then.
+    ScaleSlope countedFrom(cv::Point2d place) const {
+        const double factor = factorAt(place);
+        return {right_per_px / factor, down_per_px / factor, place.x, place.y};
+    }
     /// Pixels per metre at a place as a multiple of those at the centre; exactly 1 everywhere where it is flat.
     double factorAt(cv::Point2d place) const {
         if (isFlat()) return 1;
