@@ -62,24 +62,30 @@ TEST(ScaleSlope, TheScaleOfAnObliqueViewIsToldWithItsEdges) {
     EXPECT_EQ(describe(scale, {ScaleOrigin::given}, {201, 101}), "0.2 m/px, as given");
     scale.slope = kTilted;
     EXPECT_EQ(describe(scale, {ScaleOrigin::given}, {201, 101}),
-              "0.2 m/px in the middle of an oblique view (0.4 at its upper edge, 0.13 at its lower edge), as given");
+              "0.2 m/px in the middle of an oblique view (0.4 at its upper edge, 0.13 at its lower edge), from what "
+              "was given");
     scale.slope = ScaleSlope::ofPicture({201, 101}, -0.002, 0.01);
     EXPECT_EQ(describe(scale, {ScaleOrigin::given}, {201, 101}),
-              "0.2 m/px in the middle of an oblique view (0.4 at its upper edge, 0.13 at its lower edge), as given")
+              "0.2 m/px in the middle of an oblique view (0.4 at its upper edge, 0.13 at its lower edge), from what "
+              "was given")
         << "along the axis over which it changes more";
     // In a few pixels each counts: the edges are looked at in their middle.
     scale.slope = ScaleSlope::ofPicture({5, 3}, 0.2, 0.5);
     EXPECT_EQ(describe(scale, {ScaleOrigin::given}, {5, 3}),
-              "0.2 m/px in the middle of an oblique view (0.4 at its upper edge, 0.13 at its lower edge), as given");
+              "0.2 m/px in the middle of an oblique view (0.4 at its upper edge, 0.13 at its lower edge), from what "
+              "was given");
     scale.slope = ScaleSlope::ofPicture({3, 5}, -0.5, 0.2);
     EXPECT_EQ(describe(scale, {ScaleOrigin::given}, {3, 5}),
-              "0.2 m/px in the middle of an oblique view (0.13 at its left edge, 0.4 at its right edge), as given");
+              "0.2 m/px in the middle of an oblique view (0.13 at its left edge, 0.4 at its right edge), from what was "
+              "given");
     scale.slope = ScaleSlope::ofPicture({201, 101}, 0.005, -0.002);
     EXPECT_EQ(describe(scale, {ScaleOrigin::given}, {201, 101}),
-              "0.2 m/px in the middle of an oblique view (0.4 at its left edge, 0.13 at its right edge), as given");
+              "0.2 m/px in the middle of an oblique view (0.4 at its left edge, 0.13 at its right edge), from what was "
+              "given");
     scale.slope = ScaleSlope::ofPicture({201, 101}, 0.005, 0);
     EXPECT_EQ(describe(scale, {ScaleOrigin::given}, {201, 101}),
-              "0.2 m/px in the middle of an oblique view (0.4 at its left edge, 0.13 at its right edge), as given");
+              "0.2 m/px in the middle of an oblique view (0.4 at its left edge, 0.13 at its right edge), from what was "
+              "given");
 }
 
 }  // namespace

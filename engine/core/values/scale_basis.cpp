@@ -85,8 +85,10 @@ std::string describe(const SceneScale& scale, const ScaleBasis& basis, cv::Size 
     const std::string edges =
         tilted ? at(middle_x, 0) + " at its upper edge, " + at(middle_x, picture.height - 1) + " at its lower edge"
                : at(0, middle_y) + " at its left edge, " + at(picture.width - 1, middle_y) + " at its right edge";
+    // What a person gave may be that of another place.
+    const std::string source = basis.origin == ScaleOrigin::given ? "from what was given" : describe(basis);
     return significant(scale.gsd_m_per_px, digits) + " m/px in the middle of an oblique view (" + edges + "), " +
-           describe(basis);
+           source;
 }
 
 }  // namespace eyrie

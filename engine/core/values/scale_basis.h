@@ -44,7 +44,7 @@ std::string describe(const ScaleBasis& basis);
 std::string describe(double gsd_m_per_px, const ScaleBasis& basis);
 
 /// The same of a scale that may change over a picture of this size: "0.08 m/px in the middle of an oblique view (0.3 at
-/// its upper edge, 0.05 at its lower edge), as given".
+/// its upper edge, 0.05 at its lower edge), from what was given".
 std::string describe(const SceneScale& scale, const ScaleBasis& basis, cv::Size picture);
 
 }  // namespace eyrie
