@@ -205,7 +205,8 @@ TEST(BoxFlow, WhatMovesOtherwiseByHalfAPixelDoesNotAgreeInALargeBoxByAPixel) {
     const auto agreeing = [](const OrientedBox& box, double other_by) {
         std::vector<Spot> spots;
         for (int i = 0; i < 12; ++i) {
-            const double along = box.length * (i % 4 - 1.5) / 5, across = box.width * (i / 4 - 1) / 3.5;
+            const int row = i / 4;
+            const double along = box.length * (i % 4 - 1.5) / 5, across = box.width * (row - 1) / 3.5;
             spots.push_back({box.centre + cv::Point2d(along, across)});
         }
         const cv::Mat current = spotted(spots);
@@ -230,7 +231,11 @@ TEST(BoxFlow, WhereAllMoveUnevenlyTwoAndAHalfTimesTheUsualAgrees) {
     const OrientedBox car{{120, 90}, 56, 48, 0};
     const auto agreeing = [&](double usual, double of_one) {
         std::vector<Spot> spots;
-        for (int i = 0; i < 16; ++i) spots.push_back({{99.0 + 14 * (i % 4), 72.0 + 12 * (i / 4)}});
+        spots.reserve(16);
+        for (int i = 0; i < 16; ++i) {
+            const int row = i / 4;
+            spots.push_back({{99.0 + 14 * (i % 4), 72.0 + 12 * row}});
+        }
         const cv::Mat current = spotted(spots);
         // In turn to the one side and the other, which no turn and no growth explains.
         for (int i = 0; i < 16; ++i) spots[std::size_t(i)].moved.y = (i + i / 4) % 2 == 0 ? usual : -usual;
@@ -302,6 +307,7 @@ TEST(CameraAroundABox, IsToldByTwelveCornersWithinEightyPixelsAndNotNextToTheBox
     const OrientedBox box{{120, 90}, 20, 20, 0};
     const auto isTold = [&](cv::Point2d twelfth) {
         std::vector<Spot> spots;
+        spots.reserve(12);
         for (int i = 0; i < 11; ++i) spots.push_back({{60.0 + 12 * i, i % 2 == 0 ? 50.0 : 130.0}});
         spots.push_back({twelfth});
         const cv::Mat current = spotted(spots);

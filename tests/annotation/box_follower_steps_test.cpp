@@ -202,7 +202,8 @@ TEST(BoxFollowerSteps, TheFirstTwoStepsMayBeAny) {
 TEST(BoxFollowerSteps, ItEndsWhereItIsLessLikeItselfThanAsked) {
     int ended = 0, went_on = 0;
     for (const int corners : {1, 2, 3, 40}) {
-        for (double share = 0; share < 1; share += 0.08) {
+        for (int i = 0; i < 13; ++i) {
+            const double share = 0.08 * i;
             FollowOptions options = endless();
             options.max_corners = corners;
             const cv::Mat next = faded(shifted(ground(), {2, 1}), share);
@@ -280,12 +281,12 @@ TEST(BoxFollowerSteps, TheLookIsWeighedAgainstEveryPixelAndTurnAway) {
                 return lookOf(next, at).correlation(look) - 0.004 * away * away - turned * turned;
             };
             OrientedBox best = kStart;
-            for (double x = -0.9; x <= 0.9; x += 0.2)
-                for (double y = -0.9; y <= 0.9; y += 0.2)
-                    for (double heading = -0.03; heading <= 0.03; heading += 0.01) {
+            for (int right = -9; right <= 9; right += 2)
+                for (int down = -9; down <= 9; down += 2)
+                    for (int more = -3; more <= 3; ++more) {
                         OrientedBox beside = box;
-                        beside.centre += cv::Point2d(x, y);
-                        beside.heading += heading;
+                        beside.centre += cv::Point2d(0.1 * right, 0.1 * down);
+                        beside.heading += 0.01 * more;
                         if (worth(beside) > worth(best)) best = beside;
                     }
             EXPECT_LT(length(best.centre - box.centre), 0.35) << blur << way;

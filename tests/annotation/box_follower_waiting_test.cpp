@@ -170,10 +170,10 @@ TEST(BoxFollowerWaiting, TheLookDecidesBetweenCornersAndPrediction) {
         follower.startsWith({0, 0});
         const cv::Point2d centre = follower.advance(current, next, {}).box.centre;
         double standing = 0;
-        for (double x = -0.5; x <= 0.5; x += 0.25) {
-            for (double y = -0.5; y <= 0.5; y += 0.25) {
+        for (int right = -2; right <= 2; ++right) {
+            for (int down = -2; down <= 2; ++down) {
                 OrientedBox there = box;
-                there.centre += cv::Point2d(x, y);
+                there.centre += cv::Point2d(0.25 * right, 0.25 * down);
                 standing = std::max(standing, BoxPatch(next, there, samples).correlation(look));
             }
         }

@@ -46,7 +46,8 @@ struct Flight {
 
 double likeliest(const CameraSlope& slope) {
     double best = 0;
-    for (double growth = -0.9; growth <= 3; growth += 0.01) {
+    for (int i = -90; i <= 300; ++i) {
+        const double growth = 0.01 * i;
         if (slope.cost(growth) < slope.cost(best)) best = growth;
     }
     return best;
@@ -134,6 +135,7 @@ TEST(ScaleSlopeFit, AScaleReadOffVehiclesHoldsWhereTheyAre) {
     constexpr double kGsd = 0.2;
     const auto votes = [](double gsd) {
         std::vector<ScaleVote> all;
+        all.reserve(8);
         for (int i = 0; i < 8; ++i) all.push_back({cv::Point2d(300 + 40 * i, 90 + i % 3), gsd, 8});
         return all;
     };
@@ -150,6 +152,7 @@ TEST(ScaleSlopeFit, AScaleReadOffVehiclesHoldsWhereTheyAre) {
 
 TEST(ScaleSlopeFit, ManyVehiclesOutweighTheCamera) {
     std::vector<ScaleVote> votes;
+    votes.reserve(200);
     for (int i = 0; i < 200; ++i) votes.push_back({cv::Point2d(20 + i * 37 % 900, 20 + i * 53 % 500), 0.1, 8});
     EXPECT_TRUE(fitSlope(votes, kImage, 0.1, Flight{0.6, {0.002, 0.001}}.slope()).isFlat());
 }

@@ -30,6 +30,7 @@ double costOfVotes(const std::vector<double>& logarithms, double middle) {
 ScaleSlope slowSlope(const std::vector<ScaleVote>& votes, double gsd) {
     const auto costOf = [&](double right, double down) {
         std::vector<double> off;
+        off.reserve(votes.size());
         for (const ScaleVote& vote : votes)
             off.push_back(std::log(gsd / (vote.gsd_m_per_px * growthAt(vote.place, right, down))));
         double best = 1e9;
@@ -60,6 +61,7 @@ std::vector<ViewFit> slowViews(const std::vector<ScaleVote>& votes) {
     };
     const auto fitOf = [&](double down) {
         std::vector<double> middles;
+        middles.reserve(votes.size());
         for (const ScaleVote& vote : votes)
             middles.push_back(std::log(vote.gsd_m_per_px * growthAt(vote.place, 0, down)));
         const double usual = square(std::min(down, 0.9) / 0.6) / 2;
@@ -77,7 +79,8 @@ std::vector<ViewFit> slowViews(const std::vector<ScaleVote>& votes) {
     if (votes.size() < 16) return {};
     Fit best;
     double growth = 0;
-    for (double down = 0.3; down <= 4; down *= 1.08) {
+    for (int i = 0; 0.3 * std::pow(1.08, i) <= 4; ++i) {
+        const double down = 0.3 * std::pow(1.08, i);
         const Fit fit = fitOf(down);
         if (fit.cost < best.cost) {
             best = fit;

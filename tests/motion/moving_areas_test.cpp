@@ -173,8 +173,9 @@ TEST(MovingAreas, FollowWhatGoesFarBetweenTheFewPicturesOfASlowVideo) {
     };
     const auto vectors = found(slow);
     ASSERT_THAT(vectors, Not(IsEmpty()));
+    const OrientedBox box{{248, 120}, 14, 6, 0};
     for (const MotionVector& vector : vectors) {
-        EXPECT_TRUE(OrientedBox(cv::Point2d(248, 120), 14, 6, 0).contains(vector.position, 3)) << vector.position;
+        EXPECT_TRUE(box.contains(vector.position, 3)) << vector.position;
         EXPECT_NEAR(vector.velocity.x, 50, 0.3);
         EXPECT_NEAR(vector.velocity.y, 0, 0.3);
     }
