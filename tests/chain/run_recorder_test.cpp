@@ -52,6 +52,10 @@ struct CountedSource : test::MemorySource {
     using MemorySource::MemorySource;
     int reads = 0;
     bool gone = false;
+    bool leaps = false;  ///< its clock was set while it was recorded
+    std::int64_t timeOf(FrameIndex index) const override {
+        return MemorySource::timeOf(index) + (leaps && index >= 5 ? 60'000'000 : 0);
+    }
     Frame read(FrameIndex index, bool with_colour) override {
         ++reads;
         if (gone) throw Error(ErrorKind::input, "gone");
@@ -106,6 +110,19 @@ TEST(RunRecorder, picturesThatAreNotHeldAreReadOnceMore) {
     const RunRecord gone = finishedLater(folder / "gone.eyrie", true, reads);
     EXPECT_EQ(gone.state, RunState::finished);
     EXPECT_NE(gone.message.find("pictures could not be read again"), std::string::npos) << gone.message;
+}
+
+TEST(RunRecorder, lostPicturesAreToldBesideWhatElseThereIsToTell) {
+    const test::TemporaryFolder folder;
+    CountedSource source(sixtyFrames());
+    source.leaps = true;
+    const SceneScale scale = sceneScale(source.info(), 0.2);
+    RunRecorder recorder(folder / "p.eyrie", plannedRun(source.info(), scale, {}, "default"), ChainOptions{});
+    const RunSummary summary = ChainRun(ChainOptions{}, scale).run(source, {}, recorder, {});
+    source.gone = true;
+    const std::string message = recorder.finish(summary, &source).message;
+    EXPECT_THAT(message, testing::HasSubstr("leaps ahead"));
+    EXPECT_THAT(message, testing::ContainsRegex("[.] Also, [0-9]+ pictures could not be read again"));
 }
 
 TEST(RunRecorder, whoStopsARunDoesNotWaitForItsPictures) {

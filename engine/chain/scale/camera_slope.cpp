@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 namespace eyrie {
 namespace {
 
-constexpr int kFineGrowths = 37;  ///< from −0.9 to 0.9 …
+constexpr double kFirstGrowth = -0.9;  ///< upside down
+constexpr int kFineGrowths = 37;       ///< up to 0.9 …
 constexpr double kFineStep = 0.05;
-constexpr double kGrowthShare = 1.15;  ///< … and from there each so much more than the last
+constexpr double kGrowthShare = 1.15;  ///< … and from there each so much more than the last, up to 4
 constexpr int kGrowths = 48;
 constexpr std::array kAfter{8, 16, 24, 33};           ///< steps after which the way so far is looked at
 constexpr std::array kFocalLengths{0.73, 0.97, 1.3};  ///< in widths of the picture
@@ -30,8 +30,8 @@ constexpr double kMostOfStretch = 10;  ///< cost; what a stretch says may be wro
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 double growthAt(int i) {
-    if (i < kFineGrowths) return CameraSlope::kLeast + i * kFineStep;
-    return (CameraSlope::kLeast + (kFineGrowths - 1) * kFineStep) * std::pow(kGrowthShare, i - kFineGrowths + 1);
+    if (i < kFineGrowths) return kFirstGrowth + i * kFineStep;
+    return (kFirstGrowth + (kFineGrowths - 1) * kFineStep) * std::pow(kGrowthShare, i - kFineGrowths + 1);
 }
 
 /// Where places go, in halves of the picture's height from its middle; and after how many steps.

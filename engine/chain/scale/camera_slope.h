@@ -22,23 +22,22 @@ class CameraWay {
 };
 
 /// What the way of the camera over flat ground says of how the scale grows downwards in its pictures, whatever drives
-/// there: the growth from the middle of a picture to its lower edge, with a level horizon.
+/// there: the growth from the middle of a picture to its lower edge, 1 if a metre covers twice as many pixels there,
+/// with a level horizon.
 ///
-/// A camera that flies over a plane sees it move by R + T·nᵀ (R: its turn, T: its way over its height, n: the normal
-/// of the ground), of which each growth allows its own kind. What a growth costs is how far the registrations are off
-/// what it allows, where a turn about the axes of the picture is the less likely the larger it is: on a short way
-/// everything could be a turn, so that a camera that hovers says nothing.
+/// A camera that flies over a plane sees it move by R + T·nᵀ (R: its turn, T: its way over the distance of the middle,
+/// n: the normal of the ground), of which each growth allows its own kind. What a growth costs is how far the
+/// registrations are off what it allows, where a turn about the axes of the picture is the less likely the larger it
+/// is: on a short way everything could be a turn, so that a camera that hovers says nothing.
 class CameraSlope {
  public:
-    static constexpr double kSteepest = 4;  ///< growth up to which something is said …
-    static constexpr double kLeast = -0.9;  ///< … and from which on, upside down
-
     /// `image`: size of the pictures, px.
     explicit CameraSlope(cv::Size image);
 
     /// Takes the way through a stretch of frames. Stretches count each for itself, and none for much.
     void add(const std::vector<cv::Matx33d>& steps);
-    /// What a growth costs beyond the best one; as the negative logarithm of its likelihood. 0 where nothing is known.
+    /// What a growth costs beyond the best one; as the negative logarithm of its likelihood, at most 10 for each
+    /// stretch. 0 where nothing is known. Growths beyond −0.9 and 4 cost what these do.
     double cost(double growth) const;
 
  private:

@@ -42,6 +42,11 @@ double squared(double value) {
     return value * value;
 }
 
+/// Of a vote; `off`: logarithm of how far it is off.
+double costOfVote(double off) {
+    return std::min(squared(off / kVoteSpread) / 2, kFarOff);
+}
+
 /// Of a growth to the right and downwards, with the best scale in the middle.
 double costOf(double right, double down, const std::vector<ScaleVote>& votes, cv::Size image, double gsd_m_per_px) {
     const cv::Point2d half(image.width / 2.0, image.height / 2.0);
@@ -52,8 +57,7 @@ double costOf(double right, double down, const std::vector<ScaleVote>& votes, cv
     double best = 1e300;
     for (int step = -kMostOff; step <= kMostOff; ++step) {
         double cost = 0;
-        for (const double of_vote : off)
-            cost += std::min(squared((of_vote - step * kGrowthStep) / kVoteSpread) / 2, kFarOff);
+        for (const double of_vote : off) cost += costOfVote(of_vote - step * kGrowthStep);
         best = std::min(best, kIndependent * cost + squared(step * kGrowthStep / kMiddleError) / 2);
     }
     return best + squared(right / kLevelHorizon) / 2 + squared(down / kTilted) / 2;
@@ -86,14 +90,13 @@ ScaleSlope bestSlope(const std::vector<ScaleVote>& votes, cv::Size image, double
 double costUnder(const ScaleSlope& slope, const std::vector<ScaleVote>& votes, double gsd_m_per_px) {
     double cost = 0;
     for (const ScaleVote& vote : votes) {
-        const double off = std::log(gsd_m_per_px / vote.gsd_m_per_px / slope.factorAt(vote.place));
-        cost += kIndependent * std::min(squared(off / kVoteSpread) / 2, kFarOff);
+        cost += kIndependent * costOfVote(std::log(gsd_m_per_px / vote.gsd_m_per_px / slope.factorAt(vote.place)));
     }
     return cost;
 }
 
-/// The same slope, counted from where the vehicles are if they clearly say that the scale holds there: whoever reads a
-/// scale off vehicles, as people and estimates do, reads that of their place.
+/// The same slope, counted from where the vehicles are if they say that the scale holds there rather than in the
+/// middle: whoever reads a scale off vehicles, as people and estimates do, reads that of their place.
 ScaleSlope heldWhereVehiclesAre(const ScaleSlope& slope, const std::vector<ScaleVote>& votes, double gsd_m_per_px) {
     if (votes.size() < kFewestToPlace) return slope;
     std::vector<double> across;
@@ -130,9 +133,9 @@ MiddleFit bestMiddle(double down, const std::vector<ScaleVote>& votes, cv::Size 
         double cost = 0;
         std::size_t agreeing = 0;
         for (const double of_vote : middles) {
-            const double off = squared((of_vote - middle) / kVoteSpread) / 2;
-            cost += std::min(off, kFarOff);
-            agreeing += off < kFarOff;
+            const double of_this = costOfVote(of_vote - middle);
+            cost += of_this;
+            agreeing += of_this < kFarOff;
         }
         cost = kIndependent * cost + tiltCost(down) + camera.cost(down);
         if (cost < best.cost) best = {std::exp(middle), cost, agreeing};
@@ -166,9 +169,9 @@ std::vector<ViewFit> fitView(const std::vector<ScaleVote>& votes, cv::Size image
 ScaleSlope fitSlope(const std::vector<ScaleVote>& all_votes, cv::Size image, double gsd_m_per_px,
                     const CameraSlope& camera) {
     const std::vector<ScaleVote> votes = all_votes.size() < kFewestVotes ? std::vector<ScaleVote>() : all_votes;
-    const ScaleSlope by_vehicles = bestSlope(votes, image, gsd_m_per_px, CameraSlope(image));
     const ScaleSlope slope = bestSlope(votes, image, gsd_m_per_px, camera);
-    const bool by_camera = by_vehicles.isFlat() && !slope.isFlat();
+    if (slope.isFlat()) return slope;
+    const bool by_camera = bestSlope(votes, image, gsd_m_per_px, CameraSlope(image)).isFlat();
     return by_camera ? heldWhereVehiclesAre(slope, all_votes, gsd_m_per_px) : slope;
 }
 

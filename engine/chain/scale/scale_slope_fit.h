@@ -14,8 +14,8 @@ namespace eyrie {
 /// look like one as well as two of them do. Around the picture's middle, where `gsd_m_per_px` was given or estimated, a
 /// car may be somewhat smaller or larger than usual; a horizon that is not level needs more evidence than a level one.
 /// What the camera's way says of the growth downwards counts beside the votes, and alone where there are few. A slope
-/// that only the camera tells is counted from where the vehicles are, if they clearly say that the scale holds there
-/// and not in the middle: it is that of the slope's centre in any case. Flat unless a slope explains all that far
+/// that only the camera tells is counted from where the vehicles are, if they say that the scale holds there rather
+/// than in the middle: it is that of the slope's centre in any case. Flat unless a slope explains all that far
 /// better than none, and matters.
 ScaleSlope fitSlope(const std::vector<ScaleVote>& votes, cv::Size image, double gsd_m_per_px,
                     const CameraSlope& camera);
