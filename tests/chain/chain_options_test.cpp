@@ -266,6 +266,7 @@ TEST(ChainOptions, theThesisPresetDiffersFromTheDefaultsWhereItMust) {
         {"clustering.across", "3"},
         {"clustering.roof_length", "0"},
         {"clustering.min_distance", "0"},
+        {"clustering.min_distance_far", "0"},
         {"clustering.velocity_share", "0.1"},
         {"clustering.velocity_noise_factor", "0"},
         {"clustering.min_members", "1"},

@@ -330,6 +330,7 @@ TEST(Explanation, everyParameterNamedIsOneThatExists) {
                              "clustering.along",
                              "clustering.across",
                              "clustering.min_distance",
+                             "clustering.min_distance_far",
                              "clustering.velocity_share",
                              "clustering.velocity_floor",
                              "clustering.max_length",

@@ -261,5 +261,30 @@ TEST(MotionClustering, TellsWhichLimitKeepsVectorsApart) {
     EXPECT_EQ(verdictBy({}).parameter, "clustering.velocity_share");
 }
 
+TEST(MotionClustering, FarAwayVectorsAreLinkedOverMorePixels) {
+    FrameMotion motion = emptyMotion();
+    // 5.5 px aside, where 1.0 m or at least 4 px are allowed, and 6 px in the far part of a view.
+    motion.motion_vectors = {{1, {98, 98}, {2, 0}, 9}, {2, {102, 98}, {2, 0}, 9}, {3, {100, 103.5F}, {2, 0}, 9}};
+    const auto clusters = [&](double down_per_px, const MotionClusteringOptions& options) {
+        SceneScale scale = kScale;
+        scale.slope = ScaleSlope::ofPicture(motion.image_size, 0, down_per_px);
+        return MotionClustering(options, scale).cluster(motion).size();
+    };
+    ASSERT_LT(103.5, motion.image_size.height / 2.0);
+    EXPECT_EQ(clusters(0, {}), 0U);
+    EXPECT_EQ(clusters(1e-5, {}), 1U) << "it lies above the middle, which is far away";
+    EXPECT_EQ(clusters(-1e-5, {}), 0U) << "it lies near by";
+    MotionClusteringOptions as_near;
+    as_near.min_distance_far = 5;
+    EXPECT_EQ(clusters(1e-5, as_near), 0U);
+    // Told by name what keeps them apart there.
+    SceneScale scale = kScale;
+    scale.slope = ScaleSlope::ofPicture(motion.image_size, 0, 1e-5);
+    const MotionClustering far_away(as_near, scale);
+    ClusteringTrace trace;
+    EXPECT_TRUE(far_away.cluster(motion, &trace).empty());
+    EXPECT_EQ(far_away.verdictOn({0, 1, 2}, motion, trace).parameter, "clustering.min_distance_far");
+}
+
 }  // namespace
 }  // namespace eyrie::motion_clustering_test

@@ -56,6 +56,7 @@ Linkage MotionClustering::linkageFor(double background_speed_sigma) const {
     Linkage linkage;
     linkage.slope = scale_.slope;
     linkage.reach(scale_.px(options_.along_m), scale_.px(options_.across_m), std::max(options_.min_distance, 1e-3));
+    linkage.smallest_far = options_.min_distance_far;
     const double noise =
         std::min(options_.velocity_noise_factor * background_speed_sigma, options_.velocity_noise_limit);
     linkage.velocity_floor = std::max(options_.velocity_floor, noise);
@@ -195,15 +196,16 @@ std::vector<MotionCluster> MotionClustering::cluster(const FrameMotion& motion, 
 
 LinkageGap MotionClustering::gapOutside(const FrameMotion& motion, const std::vector<int>& group) const {
     const Linkage everywhere = linkageFor(motion.background_speed_sigma);
-    const Linkage linkage = everywhere.at(middleOf(motion, group));
+    const cv::Point2d place = middleOf(motion, group);
+    const Linkage linkage = everywhere.at(place);
     LinkageGap gap = smallestGapOutside(motion.motion_vectors, group, everywhere);
     const double distance = gap.aside / linkage.across > gap.ahead / linkage.along ? linkage.across : linkage.along;
     if (gap.distance <= 1)
         gap.parameter = gap.allowed > linkage.velocity_floor || linkage.velocity_share <= 0
                             ? "clustering.velocity_share"
                             : "clustering.velocity_floor";
-    else if (distance <= options_.min_distance)
-        gap.parameter = "clustering.min_distance";
+    else if (distance <= everywhere.smallestAt(place))
+        gap.parameter = distance <= options_.min_distance ? "clustering.min_distance" : "clustering.min_distance_far";
     else
         gap.parameter = nearestLimit(gap, linkage);
     return gap;

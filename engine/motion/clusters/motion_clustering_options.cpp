@@ -7,7 +7,7 @@ MotionClusteringOptions MotionClusteringOptions::thesis() {
     options.along_m = 3.0;
     options.across_m = 3.0;
     options.roof_length_m = 0;
-    options.min_distance = 0;  // distances follow the GSD alone
+    options.min_distance = options.min_distance_far = 0;  // distances follow the GSD alone
     options.velocity_share = 0.1;
     options.velocity_noise_factor = 0;
     options.min_members = 1;  // how many vectors an object has is asked by T_out alone
@@ -37,6 +37,11 @@ void MotionClusteringOptions::describe(ParameterVisitor& visitor) {
                   ""});
     declare.real("clustering.min_distance", min_distance, 0, 100,
                  {"px", "Lowest linkage distance, whatever the ground sampling distance.", ""});
+    declare.real("clustering.min_distance_far", min_distance_far, 0, 100,
+                 {"px",
+                  "Lowest linkage distance where a view at an angle shows ground farther away than its middle: there "
+                  "corners are sparse for the size of vehicles. Counts where it is more than clustering.min_distance.",
+                  ""});
     declare.real("clustering.velocity_share", velocity_share, 0, 1,
                  {"",
                   "Linked vectors may differ in velocity by this share of their speed. About 0.03 for oblique views, "

@@ -25,6 +25,10 @@ void Linkage::reach(double along_px, double across_px, double smallest_px) {
     across = slope.isFlat() ? std::max(across_px, smallest) : across_px;
 }
 
+double Linkage::smallestAt(cv::Point2d place) const {
+    return smallestWhere(slope.factorAt(place));
+}
+
 Linkage Linkage::at(cv::Point2d place) const {
     Linkage here = *this;
     here.slope = {};
@@ -35,7 +39,8 @@ Linkage Linkage::at(cv::Point2d place) const {
 std::pair<double, double> Linkage::halfAxesAt(cv::Point2d place) const {
     if (slope.isFlat()) return {along, across};
     const double factor = slope.factorAt(place);
-    return {std::max(smallest, along * factor), std::max(smallest, across * factor)};
+    const double least = smallestWhere(factor);
+    return {std::max(least, along * factor), std::max(least, across * factor)};
 }
 
 double Linkage::reachAmong(const std::vector<MotionVector>& vectors) const {

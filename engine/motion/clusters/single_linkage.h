@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -15,10 +16,13 @@ struct Linkage {
     double velocity_floor = 0.04;  ///< px/frame, velocities may always differ by this
     double velocity_share = 0.05;  ///< … or by this share of the mean speed
     double smallest = 0;           ///< px below which no half axis falls where the slope makes it smaller
+    double smallest_far = 0;       ///< … if it is more, where ground lies farther away than at the slope's centre
     ScaleSlope slope = {};         ///< the half axes are those at its centre
 
     /// Sets both half axes, px at the slope's centre, with the smallest that either may be anywhere.
     void reach(double along_px, double across_px, double smallest_px);
+    /// px below which no half axis falls at a place.
+    double smallestAt(cv::Point2d place) const;
     /// The linkage at a place, as one that is the same everywhere.
     Linkage at(cv::Point2d place) const;
     /// The farthest that any two of the vectors may lie apart, px.
@@ -26,6 +30,9 @@ struct Linkage {
     bool joins(const MotionVector& a, const MotionVector& b) const;
 
  private:
+    double smallestWhere(double scale_factor) const {
+        return scale_factor < 1 ? std::max(smallest, smallest_far) : smallest;
+    }
     std::pair<double, double> halfAxesAt(cv::Point2d place) const;
 };
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <deque>
 #include <map>
+#include <opencv2/core/utility.hpp>
 #include <optional>
 #include <set>
 
@@ -211,9 +212,7 @@ class EndFollowing {
             wanted_.erase(wanted_.begin());
             pictures_.read(frame);
             goOn(frame);
-            if (const auto here = begins_.find(frame); here != begins_.end()) {
-                for (const std::size_t i : here->second) followBack(paths_[i], frame);
-            }
+            if (const auto here = begins_.find(frame); here != begins_.end()) followBack(here->second, frame);
             if (const auto here = ends_.find(frame); here != ends_.end()) {
                 for (const std::size_t i : here->second) begin(i, frame);
             }
@@ -271,24 +270,61 @@ class EndFollowing {
         }
     }
 
-    void followBack(TrackPath& path, FrameIndex frame) {
+    /// What the pictures show of a track before it begins.
+    struct Before {
+        std::vector<TimedPathState> guessed;  ///< of the track so far, the first one first
+        std::vector<TimedPathState> found;    ///< the last one first
+        bool met = false;
+    };
+
+    /// Follows back those who begin in a frame: each by itself, then they make room for each other in their order.
+    void followBack(const std::vector<std::size_t>& tracks, FrameIndex frame) {
         const cv::Mat* picture = pictures_.at(frame);
         if (!picture) return;
-        const auto seen = std::find_if(path.states.begin(), path.states.end(), wasSeen);
-        const std::vector<TimedPathState> guessed(path.states.begin(), seen);
-        path.states.erase(path.states.begin(), seen);
-        EndFollower follower(path.states.front(), -1, *picture, scale_);
-        std::vector<TimedPathState> found;
-        while (static_cast<int>(found.size()) < frames_) {
+        std::vector<Before> before(tracks.size());
+        for (std::size_t k = 0; k < tracks.size(); ++k) {
+            std::vector<TimedPathState>& states = paths_[tracks[k]].states;
+            const auto seen = std::find_if(states.begin(), states.end(), wasSeen);
+            before[k].guessed.assign(states.begin(), seen);
+            states.erase(states.begin(), seen);
+        }
+        // Written by index, so that the result does not depend on the number of threads.
+        const int count = static_cast<int>(tracks.size());
+        cv::parallel_for_(
+            cv::Range(0, count),
+            [&](const cv::Range& part) {
+                for (int k = part.start; k < part.end; ++k) {
+                    const auto index = static_cast<std::size_t>(k);
+                    look(paths_[tracks[index]], *picture, before[index]);
+                }
+            },
+            count);
+        for (std::size_t k = 0; k < tracks.size(); ++k) goBack(paths_[tracks[k]], before[k]);
+    }
+
+    void look(const TrackPath& path, const cv::Mat& picture, Before& before) const {
+        EndFollower follower(path.states.front(), -1, picture, scale_);
+        while (static_cast<int>(before.found.size()) < frames_) {
             const auto state = follower.next(pictures_, ground_, taken_);
             if (!state) break;
-            found.push_back(*state);
+            before.found.push_back(*state);
         }
-        found.resize(found.size() - std::min(found.size(), follower.doubtful()));
-        if (!found.empty() || follower.met()) followed_.begins.insert(path.id);
+        before.found.resize(before.found.size() - std::min(before.found.size(), follower.doubtful()));
+        before.met = follower.met();
+    }
+
+    void goBack(TrackPath& path, Before& before) {
+        const auto met = std::find_if(before.found.begin(), before.found.end(), [&](const TimedPathState& state) {
+            return !taken_.isFree(state.first, state.second.box);
+        });
+        before.met = before.met || met != before.found.end();
+        before.found.erase(met, before.found.end());
+        if (!before.found.empty() || before.met) followed_.begins.insert(path.id);
         // What was guessed stays where the pictures tell nothing.
-        for (std::size_t i = found.size(); i < guessed.size(); ++i) found.push_back(guessed[guessed.size() - 1 - i]);
-        prepend(path, found);
+        const std::vector<TimedPathState>& guessed = before.guessed;
+        for (std::size_t i = before.found.size(); i < guessed.size(); ++i)
+            before.found.push_back(guessed[guessed.size() - 1 - i]);
+        prepend(path, before.found);
         taken_.extended(path);
     }
 

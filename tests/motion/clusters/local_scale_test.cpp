@@ -78,6 +78,18 @@ TEST(LocalScale, TheReachOfALinkageIsThatOfTheMiddleBetweenTwoVectors) {
     EXPECT_FALSE(joins(100, 15.1F));
     EXPECT_TRUE(joins(-900, 3.9F)) << "no smaller than the smallest";
     EXPECT_FALSE(joins(-900, 4.1F));
+    linkage.smallest_far = 6;
+    EXPECT_TRUE(joins(-900, 5.9F)) << "no smaller than what is the smallest far away";
+    EXPECT_FALSE(joins(-900, 6.1F));
+    EXPECT_DOUBLE_EQ(linkage.smallestAt({100, 49}), 6);
+    EXPECT_DOUBLE_EQ(linkage.smallestAt({100, 50}), 4) << "as at the centre of the slope";
+    EXPECT_DOUBLE_EQ(linkage.smallestAt({100, 100}), 4);
+    linkage.smallest_far = 2;
+    EXPECT_DOUBLE_EQ(linkage.smallestAt({100, 0}), 4) << "the larger of both counts";
+    linkage.smallest_far = 6;
+    linkage.slope = {};
+    EXPECT_DOUBLE_EQ(linkage.smallestAt({100, 0}), 4) << "where the view is flat nothing is far away";
+    linkage.slope = ScaleSlope::ofPicture({201, 101}, 0, 0.01);
     const std::vector<MotionVector> vectors{{1, {100, 100}, {1, 0}, 9}, {2, {100, 0}, {1, 0}, 9}};
     EXPECT_DOUBLE_EQ(linkage.reachAmong(vectors), 15);
     EXPECT_DOUBLE_EQ(linkage.at({100, 0}).along, 5);
