@@ -152,8 +152,8 @@ struct FinishedTracks {
     std::unordered_set<TrackId> unconfirmed;  ///< left out, too: tracks that were never confirmed
     /// Those of `dropped` that only their score kept out of the result, as they would be in it.
     std::vector<TrackPath> doubtful;
-    /// What speaks for the tracks of the result, for the doubtful ones and for those that could stand; none where no
-    /// classifier takes part.
+    /// What speaks for the tracks of the result, for the doubtful ones, for those that could stand and for shadows that
+    /// were left out at last; none where no classifier takes part.
     std::map<TrackId, TrackEvidence> evidence;
 
     /// All states, ordered by frame, then id.

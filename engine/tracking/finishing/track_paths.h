@@ -66,8 +66,16 @@ void dropTooSmall(std::vector<TrackPath>& paths, const FinishingOptions& options
 /// way where they meet, or wholly when little of it is left.
 void dropSharers(std::vector<TrackPath>& paths, double max_sharing, const SceneScale& scale, DropList& dropped);
 
-/// Drops tracks that drive beside a vehicle as if fixed to it, touch it and were detected less than half as often: they
-/// are its shadow or its side.
+/// Whether a track drives beside a vehicle as if fixed to it, its long side no more than `gap_m` (m) off, and was
+/// detected less than half as often.
+bool drivesAsShadowOf(const TrackPath& vehicle, const TrackPath& shadow, const SceneScale& scale, double gap_m);
+
+/// Whether the first is a shadow, or a side, of the second.
+using IsShadow = std::function<bool(const TrackPath& shadow, const TrackPath& vehicle)>;
+
+/// Drops all tracks that are so of another.
+void dropShadows(std::vector<TrackPath>& paths, const IsShadow& is_shadow, DropList& dropped);
+/// The same of those that touch the vehicle they drive beside, whatever they look like.
 void dropShadows(std::vector<TrackPath>& paths, const SceneScale& scale, DropList& dropped);
 
 /// Drops tracks that were guessed rather than seen: detected in less than `min_share` of their frames, not counting

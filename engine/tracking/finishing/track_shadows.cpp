@@ -40,7 +40,11 @@ Beside besideOf(const TrackPath& vehicle, const TrackPath& other) {
     return beside;
 }
 
-bool isShadowOf(const TrackPath& shadow, const TrackPath& vehicle, const SceneScale& everywhere) {
+}  // namespace
+
+bool drivesAsShadowOf(const TrackPath& vehicle, const TrackPath& shadow, const SceneScale& everywhere, double gap_m) {
+    const double seen = kDetected * vehicle.statesOf(StateOrigin::detected);
+    if (shadow.statesOf(StateOrigin::detected) >= seen) return false;
     const Beside beside = besideOf(vehicle, shadow);
     const SceneScale scale = everywhere.at(middleOf(shadow));
     const auto frames = static_cast<double>(beside.along.size());
@@ -49,25 +53,18 @@ bool isShadowOf(const TrackPath& shadow, const TrackPath& vehicle, const SceneSc
     const double speed = medianOf(beside.speeds);
     if (speed < scale.pxPerFrame(kSlowest) || speed * frames < scale.px(kWay)) return false;
     return medianOf(beside.apart) <= kApart * speed && medianOf(beside.gaps_along) < 0 &&
-           medianOf(beside.gaps_across) < scale.px(kGap) + kGapPx &&
+           medianOf(beside.gaps_across) < scale.px(gap_m) + kGapPx &&
            spreadOf(beside.across) <= scale.px(kLooseAcross) && spreadOf(beside.along) <= scale.px(kLooseAlong);
 }
 
-}  // namespace
-
-void dropShadows(std::vector<TrackPath>& paths, const SceneScale& scale, DropList& dropped) {
+void dropShadows(std::vector<TrackPath>& paths, const IsShadow& is_shadow, DropList& dropped) {
     std::vector<TrackId> vehicle_of(paths.size(), 0);
-    std::vector<int> detections;
     LivingTracks living;
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-        detections.push_back(paths[i].statesOf(StateOrigin::detected));
-        living.add(i, paths[i].firstFrame(), paths[i].lastFrame());
-    }
+    for (std::size_t i = 0; i < paths.size(); ++i) living.add(i, paths[i].firstFrame(), paths[i].lastFrame());
     for (std::size_t i = 0; i < paths.size(); ++i) {
         const std::vector<std::size_t> others = living.during(paths[i].firstFrame(), paths[i].lastFrame());
-        const auto vehicle = std::find_if(others.begin(), others.end(), [&](std::size_t other) {
-            return detections[i] < kDetected * detections[other] && isShadowOf(paths[i], paths[other], scale);
-        });
+        const auto vehicle = std::find_if(others.begin(), others.end(),
+                                          [&](std::size_t other) { return is_shadow(paths[i], paths[other]); });
         if (vehicle != others.end()) vehicle_of[i] = paths[*vehicle].id;
     }
     std::size_t at = 0;
@@ -76,6 +73,15 @@ void dropShadows(std::vector<TrackPath>& paths, const SceneScale& scale, DropLis
         if (vehicle != 0) drop(path, TrackDrop::shadow, dropped, vehicle);
         return vehicle != 0;
     });
+}
+
+void dropShadows(std::vector<TrackPath>& paths, const SceneScale& scale, DropList& dropped) {
+    dropShadows(
+        paths,
+        [&](const TrackPath& shadow, const TrackPath& vehicle) {
+            return drivesAsShadowOf(vehicle, shadow, scale, kGap);
+        },
+        dropped);
 }
 
 }  // namespace eyrie

@@ -1,5 +1,6 @@
 #include "tracking/pictures/cast_shadow.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -69,6 +70,10 @@ double agreementOf(const std::vector<ShadowSide>& sides, cv::Point2d reach) {
     return shows > 0 ? agrees / shows : 0;
 }
 
+bool showsVehicle(const SilhouetteLook& look) {
+    return look.silhouette && look.silhouette->lit_vehicle;
+}
+
 using LooksOfStretch = std::vector<const SilhouetteLook*>;
 
 /// What the sure looks of a stretch say, and of how many tracks they are.
@@ -76,15 +81,15 @@ std::pair<std::vector<ShadowSide>, int> sidesOf(const LooksOfStretch& looks, con
                                                 const SceneScale& scale) {
     std::map<TrackId, int> looks_of;
     for (const SilhouetteLook* look : looks) {
-        if (look->silhouette.lit_vehicle) ++looks_of[look->track];
+        if (showsVehicle(*look)) ++looks_of[look->track];
     }
     std::vector<ShadowSide> sides;
     for (const SilhouetteLook* look : looks) {
-        if (!look->silhouette.lit_vehicle) continue;
+        if (!showsVehicle(*look)) continue;
         const GroundTurns::Turn& turn = turns.at(look->frame);
         const double metre = scale.at(look->box.centre).px(1) * turn.enlargement;
-        const BoxEdges& whole = look->silhouette.whole;
-        const BoxEdges& lit = *look->silhouette.lit;
+        const BoxEdges& whole = look->silhouette->whole;
+        const BoxEdges& lit = *look->silhouette->lit;
         const double heading = look->box.heading - turn.angle;
         const cv::Point2d along(std::cos(heading), std::sin(heading));
         const double weight = 1.0 / looks_of[look->track];
@@ -128,6 +133,13 @@ std::vector<CastShadow> castShadows(const std::vector<SilhouetteLook>& looks, co
         if (!isShadedSide(shadow, of_stretch, turns, scale)) shadows.push_back(shadow);
     }
     return shadows;
+}
+
+const CastShadow* shadowIn(const std::vector<CastShadow>& shadows, FrameIndex stretch) {
+    const auto found =
+        std::lower_bound(shadows.begin(), shadows.end(), stretch,
+                         [](const CastShadow& shadow, FrameIndex wanted) { return shadow.stretch < wanted; });
+    return found != shadows.end() && found->stretch == stretch ? &*found : nullptr;
 }
 
 cv::Point2d reachAt(const CastShadow& shadow, const GroundTurns::Turn& turn, cv::Point2d place,

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/values/scene_scale.h"
+#include "tracking/finishing/track_paths.h"
 #include "tracking/pictures/ground_turns.h"
 #include "tracking/pictures/silhouette_search.h"
 
@@ -21,9 +22,18 @@ struct CastShadow {
 std::vector<CastShadow> castShadows(const std::vector<SilhouetteLook>& looks, const GroundTurns& turns,
                                     const SceneScale& scale);
 
+/// That of a stretch among them, null where it has none.
+const CastShadow* shadowIn(const std::vector<CastShadow>& shadows, FrameIndex stretch);
+
 /// px by which shadows reach beyond a vehicle that stands at `place` in a picture, in the picture's axes.
 cv::Point2d reachAt(const CastShadow& shadow, const GroundTurns::Turn& turn, cv::Point2d place,
                     const SceneScale& scale);
+
+/// Drops tracks that are nothing but the shadow of another: shaded, and driving as if fixed to it where shadows fall,
+/// as far away as those of lorries reach.
+void dropShadowTracks(std::vector<TrackPath>& paths, const std::vector<SilhouetteLook>& looks,
+                      const std::vector<CastShadow>& shadows, const GroundTurns& turns, const SceneScale& scale,
+                      DropList& dropped);
 
 /// Takes the shadow out of the boxes of tracks: as much of it as silhouettes show to be in each of them, which is
 /// little where a box ends with the vehicle.

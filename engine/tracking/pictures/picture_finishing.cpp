@@ -78,7 +78,9 @@ void finishByPictures(FinishedTracks& finished, const GroundMotion& ground, cons
     std::vector<SilhouetteLook> looks = search.finish(gray_at);
     for (SilhouetteLook& look : looks) look.track = ownerOf(taken_up, look.track);
     const GroundTurns turns = turnsOf(paths, ground, scale);
-    takeOutShadows(paths, looks, castShadows(looks, turns, scale), turns, scale);
+    const std::vector<CastShadow> shadows = castShadows(looks, turns, scale);
+    if (options.drop_shadows) dropShadowTracks(paths, looks, shadows, turns, scale, finished.dropped);
+    takeOutShadows(paths, looks, shadows, turns, scale);
 }
 
 }  // namespace eyrie

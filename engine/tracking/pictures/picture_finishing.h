@@ -6,8 +6,9 @@
 namespace eyrie {
 
 /// What finishing takes from the pictures of a run, once its tracks and their scores are known: sure tracks are
-/// followed on where they begin or end in mid-picture and joined where they meet, and shadows are taken out of their
-/// boxes. Reads each picture that is needed once, in ascending order. Nothing happens without pictures.
+/// followed on where they begin or end in mid-picture and joined where they meet; tracks of mere shadows are dropped,
+/// and shadows taken out of the boxes of the others. Reads each picture that is needed once, in ascending order.
+/// Nothing happens without pictures.
 void finishByPictures(FinishedTracks& finished, const GroundMotion& ground, const FinishingOptions& options,
                       const SceneScale& scale, const GrayOfFrame& gray_at);
 

@@ -16,10 +16,11 @@ double shareAlong(double reach, double half, double low, double high, double lit
 }  // namespace
 
 ShadowShare shareInBox(const SilhouetteLook& look, cv::Point2d reach, double least) {
+    if (!look.silhouette) return {};
     const cv::Point2d in_box = look.box.toBox(look.box.centre + reach);
     const double enough = least * std::hypot(reach.x, reach.y);
-    const BoxEdges& whole = look.silhouette.whole;
-    const BoxEdges lit = look.silhouette.lit.value_or(BoxEdges{});
+    const BoxEdges& whole = look.silhouette->whole;
+    const BoxEdges lit = look.silhouette->lit.value_or(BoxEdges{});
     ShadowShare share;
     if (std::abs(in_box.x) > enough)
         share.along = shareAlong(in_box.x, look.box.length / 2, whole.rear, whole.front, lit.rear, lit.front);

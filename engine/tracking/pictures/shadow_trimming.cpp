@@ -22,13 +22,6 @@ double usualShare(const std::vector<double>& shares) {
     return shares.size() >= kFewestLooks ? medianOf(shares) : 0;
 }
 
-const CastShadow* shadowIn(const std::vector<CastShadow>& shadows, FrameIndex stretch) {
-    const auto found =
-        std::lower_bound(shadows.begin(), shadows.end(), stretch,
-                         [](const CastShadow& shadow, FrameIndex wanted) { return shadow.stretch < wanted; });
-    return found != shadows.end() && found->stretch == stretch ? &*found : nullptr;
-}
-
 /// A box without what lies at one end of each axis.
 OrientedBox withoutEnds(const OrientedBox& box, cv::Point2d less) {
     const double along = std::copysign(std::min(std::abs(less.x), (1 - kLeastOfBox) * box.length), less.x);

@@ -11,7 +11,7 @@ constexpr double kContrast = 12;        ///< grey values by which a vehicle or a
 constexpr double kContrastShare = 0.1;  ///< … and share of the ground's brightness
 constexpr double kDarkestShadow = 0.25;
 constexpr double kBrightestShadow = 0.85;  ///< shares of the ground's brightness between which it is in the shade
-constexpr double kDarkGround = 60;         ///< grey values; at night lamps and beams make up the silhouettes
+constexpr double kDarkGround = 60;         ///< grey values
 constexpr double kBulk = 0.3;              ///< rows with less of the area than this share of the fullest are fringe
 constexpr double kLitArea = 0.35;          ///< of the whole silhouette: less is a roof, a window or a lamp …
 constexpr double kLitLength = 1.3;         ///< of its width: shorter is a roof before the vehicle's own shaded rear …
@@ -36,6 +36,12 @@ int middleLabel(const cv::Mat& labels, int count) {
     covered[0] = 0;
     const auto most = std::max_element(covered.begin(), covered.end());
     return *most > 0 ? static_cast<int>(most - covered.begin()) : 0;
+}
+
+/// As at night, when lamps and beams make up the silhouettes.
+bool allDark(const std::vector<cv::Mat>& grounds) {
+    return std::all_of(grounds.begin(), grounds.end(),
+                       [](const cv::Mat& ground) { return cv::mean(ground)[0] < kDarkGround; });
 }
 
 }  // namespace
@@ -89,24 +95,35 @@ std::optional<BoxEdges> SilhouetteGrid::edgesOf(const cv::Mat& mask) const {
                     (left - places_.height / 2.0) * step_, (right + 1 - places_.height / 2.0) * step_};
 }
 
-std::optional<Silhouette> SilhouetteGrid::compare(const cv::Mat& vehicle, const std::vector<cv::Mat>& grounds) const {
-    cv::Mat differs(places_, CV_8UC1, cv::Scalar(255));
-    cv::Mat shaded = differs.clone();
+SilhouetteGrid::Masks SilhouetteGrid::masksOf(const cv::Mat& vehicle, const std::vector<cv::Mat>& grounds) const {
+    Masks masks{cv::Mat(places_, CV_8UC1, cv::Scalar(255)), cv::Mat(places_, CV_8UC1, cv::Scalar(255))};
     for (const cv::Mat& ground : grounds) {
         for (int y = 0; y < places_.height; ++y) {
             for (int x = 0; x < places_.width; ++x) {
                 const double here = vehicle.at<uchar>(y, x);
                 const double bare = ground.at<uchar>(y, x);
                 const double off = std::abs(here - bare);
-                if (off <= kContrast || off <= kContrastShare * bare) differs.at<uchar>(y, x) = 0;
+                if (off <= kContrast || off <= kContrastShare * bare) masks.differs.at<uchar>(y, x) = 0;
                 const double share = here / std::max(1.0, bare);
-                if (share <= kDarkestShadow || share >= kBrightestShadow) shaded.at<uchar>(y, x) = 0;
+                if (share <= kDarkestShadow || share >= kBrightestShadow) masks.shaded.at<uchar>(y, x) = 0;
             }
         }
     }
-    const bool dark = std::all_of(grounds.begin(), grounds.end(),
-                                  [](const cv::Mat& ground) { return cv::mean(ground)[0] < kDarkGround; });
-    if (dark) return {};
+    return masks;
+}
+
+double SilhouetteGrid::shadedInBox(const cv::Mat& vehicle, const std::vector<cv::Mat>& grounds) const {
+    if (allDark(grounds)) return 0;
+    const Masks masks = masksOf(vehicle, grounds);
+    const cv::Size box(std::clamp(cvRound(box_.length / step_), 1, places_.width),
+                       std::clamp(cvRound(box_.width / step_), 1, places_.height));
+    const cv::Rect inside((places_.width - box.width) / 2, (places_.height - box.height) / 2, box.width, box.height);
+    return static_cast<double>(cv::countNonZero((masks.differs & masks.shaded)(inside))) / inside.area();
+}
+
+std::optional<Silhouette> SilhouetteGrid::compare(const cv::Mat& vehicle, const std::vector<cv::Mat>& grounds) const {
+    if (allDark(grounds)) return {};
+    const auto [differs, shaded] = masksOf(vehicle, grounds);
     const auto whole = edgesOf(differs);
     if (!whole) return {};
     const double half_length = places_.width * step_ / 2;

@@ -41,7 +41,16 @@ class SilhouetteGrid {
     /// does not stand out, or is one with something that the grid does not hold.
     std::optional<Silhouette> compare(const cv::Mat& vehicle, const std::vector<cv::Mat>& grounds) const;
 
+    /// Share of the box in which a picture is as much darker than the ground as a shadow makes it, and no more; by the
+    /// same pictures. 0 where the ground is dark.
+    double shadedInBox(const cv::Mat& vehicle, const std::vector<cv::Mat>& grounds) const;
+
  private:
+    /// Where a picture differs from all of the ground's, and where it may lie in the shade; 255 or 0.
+    struct Masks {
+        cv::Mat differs, shaded;
+    };
+    Masks masksOf(const cv::Mat& vehicle, const std::vector<cv::Mat>& grounds) const;
     std::optional<BoxEdges> edgesOf(const cv::Mat& mask) const;
 
     OrientedBox box_;

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <opencv2/core/mat.hpp>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -11,12 +12,13 @@
 
 namespace eyrie {
 
-/// The silhouette of a track's vehicle in one picture.
+/// What a track's box shows in one picture against the same ground without it.
 struct SilhouetteLook {
     TrackId track = 0;
     FrameIndex frame = 0;
-    OrientedBox box;  ///< of its state
-    Silhouette silhouette;
+    OrientedBox box;                       ///< of its state
+    double shaded = 0;                     ///< share of the box in which it is as a shadow on the ground would be
+    std::optional<Silhouette> silhouette;  ///< of its vehicle, where one stands out by itself
 };
 
 /// Looks at the vehicles of sure tracks, each at some moments of its life spread over it, beside pictures from before

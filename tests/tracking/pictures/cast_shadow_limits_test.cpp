@@ -39,7 +39,7 @@ SilhouetteLook saying(TrackId track, cv::Point2d reach, double heading = 0, Fram
     const auto inBox = [&](const BoxEdges& edges) {
         return BoxEdges{edges.rear - shift.x, edges.front - shift.x, edges.left - shift.y, edges.right - shift.y};
     };
-    look.silhouette = {inBox(whole), inBox(lit), true};
+    look.silhouette = Silhouette{inBox(whole), inBox(lit), true};
     return look;
 }
 
@@ -136,9 +136,9 @@ TEST(CastShadowLimits, OnlySureVehiclesAreAsked) {
     std::vector<SilhouetteLook> looks;
     for (int i = 0; i < 5; ++i) {
         looks.push_back(saying(50 + i, {-3, 2}));
-        looks.back().silhouette.lit_vehicle = false;
+        looks.back().silhouette->lit_vehicle = false;
         looks.push_back(saying(1, {-3, 2}));
-        looks.back().silhouette.lit_vehicle = false;
+        looks.back().silhouette->lit_vehicle = false;
     }
     EXPECT_TRUE(found(looks).empty());
     const std::vector<SilhouetteLook> sure = agreeing(4, {1, 0});

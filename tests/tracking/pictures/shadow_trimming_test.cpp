@@ -37,7 +37,7 @@ SilhouetteLook lookAt(FrameIndex frame, double heading, cv::Point2d reach, doubl
     };
     const auto [rear, front] = ends(12, reach.x);
     const auto [left, right] = ends(6, reach.y);
-    look.silhouette.whole = {rear, front, left, right};
+    look.silhouette = Silhouette{{rear, front, left, right}, {}, false};
     return look;
 }
 

@@ -62,6 +62,28 @@ TEST(SilhouetteGrid, DoesNotTellADarkVehicleFromItsShadow) {
     EXPECT_FALSE(silhouette->lit_vehicle);
 }
 
+TEST(SilhouetteGrid, TellsHowMuchOfTheBoxIsShaded) {
+    const cv::Mat ground = bareGround();
+    const auto shaded = [&](const cv::Mat& vehicle, const cv::Mat& bare) {
+        return kGrid.shadedInBox(kGrid.sampled(vehicle), {kGrid.sampled(bare)});
+    };
+    EXPECT_DOUBLE_EQ(shaded(ground, ground), 0);
+    cv::Mat half = ground.clone();
+    half(cv::Rect(48, 30, 12, 20)) *= 0.5;
+    EXPECT_NEAR(shaded(half, ground), 0.5, 0.05) << "the rear half, and beside the box as well";
+    cv::Mat lamp_post = ground.clone();
+    lamp_post(cv::Rect(74, 20, 6, 40)) *= 0.5;
+    EXPECT_DOUBLE_EQ(shaded(lamp_post, ground), 0) << "before the box, not in it";
+    EXPECT_NEAR(shaded(withCar(ground.clone(), 80), ground), 1, 0.05) << "a dark vehicle cannot be told from it";
+    EXPECT_NEAR(shaded(withCar(ground.clone(), 230), ground), 0, 0.05);
+    EXPECT_LT(shaded(withCar(ground.clone(), 20), ground), 0.2) << "black, darker than any shadow but at its edges";
+    cv::Mat night = bareGround(40);
+    cv::Mat in_shade = night * 0.5;
+    EXPECT_DOUBLE_EQ(shaded(in_shade, night), 0);
+    // It must be shaded against the ground of all pictures.
+    EXPECT_DOUBLE_EQ(kGrid.shadedInBox(kGrid.sampled(half), {kGrid.sampled(ground), kGrid.sampled(half)}), 0);
+}
+
 TEST(SilhouetteGrid, DoesNotTakeARoofForTheVehicle) {
     cv::Mat picture = withCar(bareGround(), 80);
     picture(cv::Rect(56, 37, 6, 6)).setTo(230);

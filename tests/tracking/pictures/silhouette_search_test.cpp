@@ -93,11 +93,11 @@ TEST(SilhouetteSearch, LooksADozenTimesSpreadOverTheLifeOfATrack) {
         EXPECT_EQ(look.track, 7);
         frames.insert(look.frame);
         EXPECT_EQ(OrientedBox(road.paths[0].at(look.frame)->second.box).centre, look.box.centre);
-        EXPECT_NEAR(look.silhouette.whole.rear, -12, 0.6);
-        EXPECT_NEAR(look.silhouette.whole.front, 12, 0.6);
-        EXPECT_NEAR(look.silhouette.whole.left, -6, 0.6);
-        EXPECT_NEAR(look.silhouette.whole.right, 6, 0.6);
-        EXPECT_TRUE(look.silhouette.lit_vehicle);
+        EXPECT_NEAR(look.silhouette->whole.rear, -12, 0.6);
+        EXPECT_NEAR(look.silhouette->whole.front, 12, 0.6);
+        EXPECT_NEAR(look.silhouette->whole.left, -6, 0.6);
+        EXPECT_NEAR(look.silhouette->whole.right, 6, 0.6);
+        EXPECT_TRUE(look.silhouette->lit_vehicle);
     }
     ASSERT_EQ(frames.size(), 12U);
     EXPECT_EQ(*frames.begin(), 0);
