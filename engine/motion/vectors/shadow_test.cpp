@@ -4,6 +4,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "motion/vectors/cell_means.h"
+
 namespace eyrie {
 namespace {
 
@@ -57,10 +59,8 @@ ShadowTest::ShadowTest(const ShadowTestOptions& options, const SceneScale& scale
 void ShadowTest::prepare(const cv::Mat& gray) {
     gray_ = gray;
     if (gray.empty()) return;
-    cv::Mat cells;
-    const cv::Size size((gray.cols + block_ - 1) / block_, (gray.rows + block_ - 1) / block_);
-    cv::resize(gray, cells, size, 0, 0, cv::INTER_AREA);
-    cv::medianBlur(cells, ground_, window_);
+    const cv::Size cells((gray.cols + block_ - 1) / block_, (gray.rows + block_ - 1) / block_);
+    cv::medianBlur(cellMeans(gray, cells), ground_, window_);
 }
 
 double ShadowTest::groundAt(cv::Point2d place) const {
