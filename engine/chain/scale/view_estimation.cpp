@@ -115,7 +115,8 @@ std::optional<EstimatedView> estimateView(FrameSource& source, FrameRange range,
         fit = view;
     }
     if (stop.stop_requested() || !fit) return std::nullopt;
-    const auto vehicles = static_cast<double>(std::max<std::size_t>(given.at_once, 1));
+    // One vehicle may vote by several of its parts, and one be a track in each stretch.
+    const double vehicles = std::max(1.0, std::min(static_cast<double>(given.at_once), found.cars));
     const double variance = kErrorOfLook * kErrorOfLook + kErrorOfLength * kErrorOfLength / vehicles;
     EstimatedView view;
     view.middle.gsd_m_per_px = fit->gsd_m_per_px;
