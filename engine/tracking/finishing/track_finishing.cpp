@@ -147,7 +147,8 @@ void FinishingOptions::describe(ParameterVisitor& v) {
     declare.flag(
         "finishing.trim_shadows", trim_shadows,
         {"",
-         "Take the shadow out of the boxes of sure tracks where the vehicles show which way shadows fall. Needs "
+         "Take the shadow out of the boxes of sure tracks where the vehicles show which way shadows fall, and at night "
+         "what their headlights light ahead of them. Needs "
          "a method with a classifier.",
          ""});
     declare.real(

@@ -8,6 +8,7 @@
 #include "tracking/finishing/frames_of.h"
 #include "tracking/finishing/track_paths.h"
 #include "tracking/pictures/cast_shadow.h"
+#include "tracking/pictures/headlight_beams.h"
 
 namespace eyrie {
 namespace {
@@ -81,6 +82,8 @@ void finishByPictures(FinishedTracks& finished, const GroundMotion& ground, cons
     const std::vector<CastShadow> shadows = castShadows(looks, turns, scale);
     if (options.drop_shadows) dropShadowTracks(paths, looks, shadows, turns, scale, finished.dropped);
     takeOutShadows(paths, looks, shadows, turns, scale);
+    // Headlights light nothing where the sun casts shadows.
+    if (shadows.empty()) takeOutBeams(paths, looks);
 }
 
 }  // namespace eyrie

@@ -12,6 +12,9 @@ constexpr double kContrastShare = 0.1;  ///< … and share of the ground's brigh
 constexpr double kDarkestShadow = 0.25;
 constexpr double kBrightestShadow = 0.85;  ///< shares of the ground's brightness between which it is in the shade
 constexpr double kDarkGround = 60;         ///< grey values
+constexpr double kBesideMiddle = 0.2;      ///< share of a box's width left out on either side of its middle
+constexpr double kLamp = 40;               ///< grey values by which lamps are brighter than the ground …
+constexpr double kLitAhead = 0.5;          ///< … and share of that which what they light ahead of them is, at least
 constexpr double kBulk = 0.3;              ///< rows with less of the area than this share of the fullest are fringe
 constexpr double kLitArea = 0.35;          ///< of the whole silhouette: less is a roof, a window or a lamp …
 constexpr double kLitLength = 1.3;         ///< of its width: shorter is a roof before the vehicle's own shaded rear …
@@ -115,10 +118,36 @@ SilhouetteGrid::Masks SilhouetteGrid::masksOf(const cv::Mat& vehicle, const std:
 double SilhouetteGrid::shadedInBox(const cv::Mat& vehicle, const std::vector<cv::Mat>& grounds) const {
     if (allDark(grounds)) return 0;
     const Masks masks = masksOf(vehicle, grounds);
+    const cv::Rect inside = inBox();
+    return static_cast<double>(cv::countNonZero((masks.differs & masks.shaded)(inside))) / inside.area();
+}
+
+cv::Rect SilhouetteGrid::inBox() const {
     const cv::Size box(std::clamp(cvRound(box_.length / step_), 1, places_.width),
                        std::clamp(cvRound(box_.width / step_), 1, places_.height));
-    const cv::Rect inside((places_.width - box.width) / 2, (places_.height - box.height) / 2, box.width, box.height);
-    return static_cast<double>(cv::countNonZero((masks.differs & masks.shaded)(inside))) / inside.area();
+    return {(places_.width - box.width) / 2, (places_.height - box.height) / 2, box.width, box.height};
+}
+
+double SilhouetteGrid::beamInBox(const cv::Mat& vehicle, const std::vector<cv::Mat>& grounds) const {
+    // How much brighter it is than the darkest ground, along the middle of the box from its rear to its front.
+    cv::Rect middle = inBox();
+    const int side = static_cast<int>(middle.height * kBesideMiddle);
+    middle = {middle.x, middle.y + side, middle.width, middle.height - 2 * side};
+    cv::Mat ground = grounds.front().clone();
+    for (const cv::Mat& other : grounds) ground = cv::min(ground, other);
+    cv::Mat brighter;
+    cv::subtract(vehicle(middle), ground(middle), brighter, cv::noArray(), CV_32F);
+    cv::Mat along;
+    cv::reduce(brighter, along, 0, cv::REDUCE_AVG);
+    cv::blur(along, along, {3, 1}, {-1, -1}, cv::BORDER_REPLICATE);
+    cv::Point lamps;
+    double brightest = 0;
+    cv::minMaxLoc(along, nullptr, &brightest, nullptr, &lamps);
+    if (brightest < kLamp || 2 * lamps.x < along.cols || lamps.x + 1 == along.cols) return 0;
+    const double ahead = cv::mean(along.colRange(lamps.x + 1, along.cols))[0];
+    const double vehicle_itself = cv::mean(along.colRange(0, lamps.x))[0];
+    if (ahead < kLitAhead * brightest || ahead + kContrast > brightest || ahead < vehicle_itself + kContrast) return 0;
+    return static_cast<double>(along.cols - 1 - lamps.x) / along.cols;
 }
 
 std::optional<Silhouette> SilhouetteGrid::compare(const cv::Mat& vehicle, const std::vector<cv::Mat>& grounds) const {

@@ -45,11 +45,17 @@ class SilhouetteGrid {
     /// same pictures. 0 where the ground is dark.
     double shadedInBox(const cv::Mat& vehicle, const std::vector<cv::Mat>& grounds) const;
 
+    /// Share of the box's length ahead of its brightest place, the lamps, where that is lit ground rather than vehicle:
+    /// what its headlights throw ahead of it at night. 0 where it is not.
+    double beamInBox(const cv::Mat& vehicle, const std::vector<cv::Mat>& grounds) const;
+
  private:
     /// Where a picture differs from all of the ground's, and where it may lie in the shade; 255 or 0.
     struct Masks {
         cv::Mat differs, shaded;
     };
+    /// The places of the box itself.
+    cv::Rect inBox() const;
     Masks masksOf(const cv::Mat& vehicle, const std::vector<cv::Mat>& grounds) const;
     std::optional<BoxEdges> edgesOf(const cv::Mat& mask) const;
 

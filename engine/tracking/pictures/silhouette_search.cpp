@@ -40,7 +40,7 @@ class SilhouetteSearch::Plan {
             for (const TimedPathState* state : momentsOf(path)) {
                 const OrientedBox box = state->second.box;
                 const double metre = scale_.at(box.centre).px(1);
-                Planned look{{path.id, state->first, box, 0, {}},
+                Planned look{{path.id, state->first, box, 0, 0, {}},
                              SilhouetteGrid(box, kMarginAbout * metre, std::max(0.5, kGridStep * metre)),
                              {}};
                 addGrounds(look, -1);
@@ -127,6 +127,7 @@ void SilhouetteSearch::take(Planned& planned, FrameIndex frame, const cv::Mat& g
     if (frame != planned.last) return;
     if (!planned.vehicle.empty() && !planned.seen.empty()) {
         planned.look.shaded = planned.grid.shadedInBox(planned.vehicle, planned.seen);
+        planned.look.beam = planned.grid.beamInBox(planned.vehicle, planned.seen);
         planned.look.silhouette = planned.grid.compare(planned.vehicle, planned.seen);
         looks_.push_back(planned.look);
     }

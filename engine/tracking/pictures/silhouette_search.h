@@ -18,6 +18,7 @@ struct SilhouetteLook {
     FrameIndex frame = 0;
     OrientedBox box;                       ///< of its state
     double shaded = 0;                     ///< share of the box in which it is as a shadow on the ground would be
+    double beam = 0;                       ///< share of its length that is lit ground ahead of its lamps
     std::optional<Silhouette> silhouette;  ///< of its vehicle, where one stands out by itself
 };
 

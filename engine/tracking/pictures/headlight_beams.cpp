@@ -1,0 +1,48 @@
+#include "tracking/pictures/headlight_beams.h"
+
+#include <algorithm>
+#include <map>
+
+#include "core/robust_statistics.h"
+
+namespace eyrie {
+namespace {
+
+constexpr std::size_t kFewestLookedAt = 2;  ///< times a track is
+constexpr double kClearBeam = 0.1;          ///< share of the length
+constexpr int kFewestLit = 3;               ///< tracks that have a beam …
+constexpr double kMostLit = 0.25;           ///< … and share of those that were looked at, since by day few look so
+constexpr double kLampsWithin = 0.06;       ///< share of the length by which lamps lie behind the front
+constexpr double kLongestOut = 0.5;         ///< share of the length that is taken out at most
+
+/// By track that was looked at: the usual share of its length that is a beam.
+std::map<TrackId, double> usualBeams(const std::vector<SilhouetteLook>& looks) {
+    std::map<TrackId, std::vector<double>> shares;
+    for (const SilhouetteLook& look : looks) shares[look.track].push_back(look.beam);
+    std::map<TrackId, double> usual;
+    for (auto& [track, of_track] : shares) {
+        if (of_track.size() >= kFewestLookedAt) usual[track] = medianOf(std::move(of_track));
+    }
+    return usual;
+}
+
+}  // namespace
+
+void takeOutBeams(std::vector<TrackPath>& paths, const std::vector<SilhouetteLook>& looks) {
+    const std::map<TrackId, double> beams = usualBeams(looks);
+    const auto lit =
+        std::count_if(beams.begin(), beams.end(), [](const auto& beam) { return beam.second >= kClearBeam; });
+    if (lit < kFewestLit || static_cast<double>(lit) < kMostLit * static_cast<double>(beams.size())) return;
+    for (TrackPath& path : paths) {
+        const auto beam = beams.find(path.id);
+        if (beam == beams.end()) continue;
+        const double share = std::clamp(beam->second - kLampsWithin, 0.0, kLongestOut);
+        for (auto& [frame, state] : path.states) {
+            const OrientedBox box = state.box;
+            const double out = share * box.length;
+            state.box = OrientedBox{box.toImage({-out / 2, 0}), box.length - out, box.width, box.heading};
+        }
+    }
+}
+
+}  // namespace eyrie
