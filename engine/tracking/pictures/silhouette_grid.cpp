@@ -14,7 +14,8 @@ constexpr double kBrightestShadow = 0.85;  ///< shares of the ground's brightnes
 constexpr double kDarkGround = 60;         ///< grey values
 constexpr double kBesideMiddle = 0.2;      ///< share of a box's width left out on either side of its middle
 constexpr double kLamp = 40;               ///< grey values by which lamps are brighter than the ground …
-constexpr double kLitAhead = 0.5;          ///< … and share of that which what they light ahead of them is, at least
+constexpr double kLampStandsOut = 5;       ///< … and brighter than what they light ahead of them …
+constexpr double kLitAhead = 0.5;          ///< … which is brighter than the ground by this share of that
 constexpr double kBulk = 0.3;              ///< rows with less of the area than this share of the fullest are fringe
 constexpr double kLitArea = 0.35;          ///< of the whole silhouette: less is a roof, a window or a lamp …
 constexpr double kLitLength = 1.3;         ///< of its width: shorter is a roof before the vehicle's own shaded rear …
@@ -146,7 +147,8 @@ double SilhouetteGrid::beamInBox(const cv::Mat& vehicle, const std::vector<cv::M
     if (brightest < kLamp || 2 * lamps.x < along.cols || lamps.x + 1 == along.cols) return 0;
     const double ahead = cv::mean(along.colRange(lamps.x + 1, along.cols))[0];
     const double vehicle_itself = cv::mean(along.colRange(0, lamps.x))[0];
-    if (ahead < kLitAhead * brightest || ahead + kContrast > brightest || ahead < vehicle_itself + kContrast) return 0;
+    if (ahead < kLitAhead * brightest || ahead + kLampStandsOut > brightest || ahead < vehicle_itself + kContrast)
+        return 0;
     return static_cast<double>(along.cols - 1 - lamps.x) / along.cols;
 }
 
