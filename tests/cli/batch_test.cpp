@@ -103,11 +103,11 @@ class Batches : public testing::Test {
         const auto runs = runsOf(project);
         return runs.size() == 1 && runs[0].state == RunState::finished && runs[0].frames_done == frames;
     }
-    /// All runs of a project began that far into this second.
+    /// All runs of a project began that far into this second, as those of before: only times tell what has changed.
     void beganAt(const std::string& project, const std::string& fraction_us) const {
         SQLite::Database(at(project), SQLite::OPEN_READWRITE)
             .exec("UPDATE run SET started_utc = '" + utcTextOfSeconds(kSecond.count()) +
-                  "', started_fraction_us = " + fraction_us);
+                  "', source_digest = '', started_fraction_us = " + fraction_us);
     }
     void changedAt(const std::string& name, int past_second_us) const {
         fs::last_write_time(folder / name,
