@@ -8,6 +8,7 @@
 #include "core/geometry/oriented_box.h"
 #include "core/review/event_kind.h"
 #include "core/values/ids.h"
+#include "core/values/last_frame.h"
 #include "core/values/scene_scale.h"
 
 namespace eyrie {
@@ -47,7 +48,8 @@ struct TrackedBox {
 /// One vehicle through the frames.
 struct EventTrack {
     TrackId id = 0;
-    std::vector<TrackedBox> boxes;  ///< ascending frames, never empty
+    std::vector<TrackedBox> boxes;       ///< ascending frames, never empty
+    FrameIndex seen_until = kLastFrame;  ///< boxes after it are mere predictions
 };
 
 }  // namespace eyrie

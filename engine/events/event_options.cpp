@@ -22,7 +22,10 @@ void describeMotion(EventOptions& options, const ParameterDeclarer& declare) {
                   "standing_speed. Between the two it stays what it was.",
                   ""});
     declare.real("events.min_standing", options.min_standing_s, 0, 60,
-                 {"s", "Shorter standstills are neither stops nor starts.", ""});
+                 {"s",
+                  "Shorter standstills are neither stops nor starts. One in which its track is lost counts from two "
+                  "fifths of this on.",
+                  ""});
     declare.real(
         "events.min_way", options.min_way_m, 0, 100,
         {"m", "A vehicle that moves less than this between two standstills counts as standing all the time.", ""});

@@ -45,17 +45,23 @@ StoredTracks readTracks(const RunStore& store, const RunRecord& run, const std::
         numbers.emplace(track.id, found.tracks.size());
         EventTrack& added = found.tracks.emplace_back();
         added.id = track.id;
+        added.seen_until = run.first_frame - 1;
         added.boxes.reserve(std::min(static_cast<std::size_t>(track.frames), found.shown_s.size()));
         found.scores[track.id] = track.score;
     }
-    store.visitTrackPlaces(run.id, [&](FrameIndex frame, TrackId track, const OrientedBox& box) {
+    store.visitTrackPlaces(run.id, [&](FrameIndex frame, TrackId track, const OrientedBox& box, bool seen) {
         const auto number = numbers.find(track);
         if (number == numbers.end() || corrected.replaced.contains(track)) return;
-        found.tracks[number->second].boxes.push_back({frame, box});
+        EventTrack& added = found.tracks[number->second];
+        added.boxes.push_back({frame, box});
+        if (seen) added.seen_until = frame;
     });
     for (const auto& [id, track] : corrected.tracks) {
-        for (const TrackFrame& each : track.states)
-            found.tracks[numbers.at(id)].boxes.push_back({each.frame, each.state.box});
+        EventTrack& added = found.tracks[numbers.at(id)];
+        for (const TrackFrame& each : track.states) {
+            added.boxes.push_back({each.frame, each.state.box});
+            if (each.state.origin != StateOrigin::predicted) added.seen_until = each.frame;
+        }
     }
     std::erase_if(found.tracks, [&](const EventTrack& track) {
         if (track.boxes.empty()) found.scores.erase(track.id);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <fstream>
 #include <memory>
 #include <vector>
@@ -76,6 +77,28 @@ std::string edgeDigestOf(const std::filesystem::path& path) {
     if (size > kEdge) add(std::max(kEdge, size - kEdge), size);
     if (failed || stream.fail()) throw Error(ErrorKind::input, path.string() + ": cannot be read to its end");
     return sum.digits();
+}
+
+std::string listingDigestOf(const std::filesystem::path& path) {
+    try {
+        if (!isFolder(path) && !isFile(path)) return {};
+        std::vector<std::filesystem::path> files = filesOf(path);
+        if (isFile(path) && hasPartListName(path)) files.push_back(path);
+        Sha256 sum;
+        for (const std::filesystem::path& file : files) {
+            const std::string name = file.filename().string();
+            const auto written = std::filesystem::last_write_time(file).time_since_epoch();
+            const std::string state = std::to_string(std::filesystem::file_size(file)) + " " +
+                                      std::to_string(std::chrono::nanoseconds(written).count());
+            sum.add(name.c_str(), name.size() + 1);
+            sum.add(state.c_str(), state.size() + 1);
+        }
+        return sum.digits();
+    } catch (const std::filesystem::filesystem_error&) {
+        return {};  // it went meanwhile
+    } catch (const Error&) {
+        return {};
+    }
 }
 
 std::string sha256Of(const std::filesystem::path& path, const std::function<void(double)>& progress,

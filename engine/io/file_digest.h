@@ -14,6 +14,11 @@ namespace eyrie {
 std::string sha256Of(const std::filesystem::path& path, const std::function<void(double)>& progress = {},
                      const std::stop_token& stop = {});
 
+/// SHA-256 of how the files lie there that sha256Of() reads, and a list of parts itself: names, sizes and times of
+/// last writing, in their order. Tells at once whether pictures were put in, taken away or replaced, by older ones too.
+/// Empty for what is no file or folder, or cannot be looked into.
+std::string listingDigestOf(const std::filesystem::path& path);
+
 /// SHA-256 of the first and the last 64 KiB of a file, all of it where it is not longer: tells files of one size apart
 /// at once, however long they are. Throws Error(input) for what cannot be read.
 std::string edgeDigestOf(const std::filesystem::path& path);

@@ -103,16 +103,34 @@ class Batches : public testing::Test {
         const auto runs = runsOf(project);
         return runs.size() == 1 && runs[0].state == RunState::finished && runs[0].frames_done == frames;
     }
-    /// All runs of a project began that far into this second.
+    /// All runs of a project began that far into this second, as those of before: only times tell what has changed.
     void beganAt(const std::string& project, const std::string& fraction_us) const {
         SQLite::Database(at(project), SQLite::OPEN_READWRITE)
             .exec("UPDATE run SET started_utc = '" + utcTextOfSeconds(kSecond.count()) +
-                  "', started_fraction_us = " + fraction_us);
+                  "', source_digest = '', started_fraction_us = " + fraction_us);
     }
     void changedAt(const std::string& name, int past_second_us) const {
         fs::last_write_time(folder / name,
                             fs::file_time_type::clock::from_sys(std::chrono::sys_time<std::chrono::nanoseconds>(
                                 kSecond + std::chrono::microseconds(past_second_us))));
+    }
+    /// Old pictures whose names begin with letters of either case: A01, b02, A03 ….
+    void putPictures(int count) const {
+        const test::MovingScene scene;
+        fs::create_directories(folder / "in/day");
+        for (int i = 0; i < count; ++i) {
+            const std::string number = std::to_string(101 + i).substr(1);
+            const std::string name = (i % 2 == 0 ? "in/day/A" : "in/day/b") + number + ".png";
+            cv::imwrite(at(name), scene.draw(i));
+            makeOld(name);
+        }
+    }
+    void makeOld(const std::string& name) const {
+        fs::last_write_time(folder / name, fs::file_time_type::clock::now() - std::chrono::hours(1000));
+    }
+    void copyAsItIs(const std::string& from, const std::string& to) const {
+        fs::copy_file(folder / from, folder / to, fs::copy_options::overwrite_existing);
+        fs::last_write_time(folder / to, fs::last_write_time(folder / from));
     }
     /// The names of files that the summary has in a state.
     std::vector<std::string> inState(const std::string& state, const std::string& summary = "out/batch.csv") const {
@@ -416,6 +434,64 @@ TEST_F(Batches, aFileThatMayHaveChangedSinceItsRunBeganIsDoneAgain) {
     EXPECT_TRUE(doesAgain("500000", 495'000)) << "times of files tick";
     EXPECT_TRUE(doesAgain("500000", 0)) << "some disks keep whole seconds";
     EXPECT_FALSE(doesAgain("500000", -3'000'000));
+}
+
+TEST_F(Batches, aFolderWithOtherPicturesIsDoneAgainHoweverOldTheyAre) {
+    putPictures(8);
+    const auto said = [&] { return batch().output; };
+    EXPECT_THAT(said(), HasSubstr("1 file: 1 done\n"));
+    EXPECT_THAT(said(), HasSubstr("1 file: 1 done before\n"));
+    fs::remove(folder / "in/day/b02.png");
+    EXPECT_THAT(said(), HasSubstr("1 file: 1 done\n")) << "one was taken away";
+    EXPECT_EQ(runsOf("out/day.eyrie").back().frames_done, 7);
+    EXPECT_THAT(said(), HasSubstr("1 file: 1 done before\n"));
+    copyAsItIs("in/day/A01.png", "in/day/z.png");
+    EXPECT_THAT(said(), HasSubstr("1 file: 1 done\n")) << "an old one was put in";
+    copyAsItIs("in/day/A03.png", "in/day/z.png");
+    EXPECT_THAT(said(), HasSubstr("1 file: 1 done\n")) << "an old one was put in another's place";
+    fs::rename(folder / "in/day/z.png", folder / "in/day/0.png");
+    EXPECT_THAT(said(), HasSubstr("1 file: 1 done\n")) << "they are in another order";
+    EXPECT_THAT(said(), HasSubstr("1 file: 1 done before\n"));
+}
+
+TEST_F(Batches, aVideoInWhosePlaceAnOlderOneWasPutIsDoneAgain) {
+    put("in/a.mp4");
+    ASSERT_EQ(batch({"--frames", "0:3"}).exit_code, 0);
+    fs::copy_file(longClip(), folder / "in/a.mp4", fs::copy_options::overwrite_existing);
+    makeOld("in/a.mp4");
+    EXPECT_THAT(batch({"--frames", "0:3"}).output, HasSubstr("1 file: 1 done\n"));
+    EXPECT_THAT(batch({"--frames", "0:3"}).output, HasSubstr("1 file: 1 done before\n"));
+}
+
+TEST_F(Batches, ofAFolderOfBeforeItIsKnownHowManyPicturesThereWere) {
+    putPictures(5);
+    ASSERT_EQ(batch().exit_code, 0);
+    SQLite::Database(at("out/day.eyrie"), SQLite::OPEN_READWRITE).exec("UPDATE run SET source_digest = ''");
+    EXPECT_THAT(batch().output, HasSubstr("1 file: 1 done before\n"));
+    fs::remove(folder / "in/day/b04.png");
+    EXPECT_THAT(batch().output, HasSubstr("1 file: 1 done\n"));
+}
+
+TEST_F(Batches, whatWasStoppedGoesOnInItsPicturesAndBeginsAnewInOthers) {
+    putPictures(kFramesOfLong);
+    const auto stop = [&](std::size_t run) {
+        test::Process process(command("batch", {"--jobs", "1"}));
+        test::waitUntil("some frames are done", [&] {
+            const auto runs = runsOf("out/day.eyrie");
+            return runs.size() == run && runs.back().frames_done > 5;
+        });
+        kill(process.pid(), SIGTERM);
+        EXPECT_EQ(process.wait().exit_code, 130);
+    };
+    stop(1);
+    fs::remove(folder / "in/day/A09.png");  // one that was done
+    stop(2);
+    const auto result = batch();
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    const auto runs = runsOf("out/day.eyrie");
+    ASSERT_EQ(runs.size(), 2U);
+    EXPECT_EQ(runs[1].state, RunState::finished);
+    EXPECT_EQ(runs[1].frames_done, kFramesOfLong - 1);
 }
 
 TEST_F(Batches, textThatIsCalledAVideoIsListedWithTheReason) {

@@ -204,6 +204,7 @@ TEST_F(RunAgain, FindsAVideoThatMovedAndRefusesAnother) {
     const auto other = cli({"run", at("other"), "--resume", "--run", "1", "--project", at("p.eyrie")});
     EXPECT_EQ(other.exit_code, 3) << other.output;
     EXPECT_THAT(other.errors, HasSubstr("is not the same video"));
+    EXPECT_THAT(other.errors, testing::ContainsRegex("frame [0-9]+ \\([0-9]+\\.png\\) shows something else"));
     const auto moved = cli({"run", at("there/clip"), "--resume", "--run", "1", "--project", at("p.eyrie")});
     EXPECT_EQ(moved.exit_code, 0) << moved.errors;
     EXPECT_THAT(moved.output, HasSubstr("60 of 60 frames"));

@@ -146,6 +146,30 @@ TEST(Standstills, AStopAStandAndAStartAreFoundWhereTheyAre) {
     EXPECT_LT(stands[0].frame, starts[0].frame);
 }
 
+TEST(Standstills, ATrackThatIsLostInAStandstillNeedsToShowLessOfIt) {
+    DrivenTracks scene;
+    scene.noise_px = 0;
+    scene.drive({20, 60}, 0, {{4, 36, 36}, {3.33, 36, 0}, {0.8, 0, 0}});
+    const auto stops = scene.events(EventKind::stops);
+    ASSERT_THAT(tracksOf(stops), ElementsAre(1));
+    EXPECT_THAT(tracksOf(scene.events(EventKind::lost)), ElementsAre(1));
+    scene.tracks[0].seen_until = stops[0].frame - 2;
+    EXPECT_THAT(scene.events(EventKind::stops), ::testing::SizeIs(1));
+    scene.tracks[0].seen_until = stops[0].frame - 3;
+    EXPECT_THAT(scene.events(EventKind::stops), IsEmpty()) << "what came to rest is its prediction";
+    scene.tracks[0].seen_until = kLastFrame;
+    scene.frames = scene.tracks[0].boxes.back().frame + 1;
+    EXPECT_THAT(scene.events(EventKind::stops), IsEmpty()) << "it is not lost, the video is over";
+}
+
+TEST(Standstills, APauseAndBrakingAreNone) {
+    DrivenTracks scene;
+    scene.noise_px = 0;
+    scene.drive({20, 60}, 0, {{4, 36, 36}, {3.33, 36, 0}, {0.4, 0, 0}, {3.33, 0, 36}});
+    scene.drive({20, 90}, 0, {{4, 36, 36}, {3, 36, 4}});  // it is lost while it brakes
+    EXPECT_THAT(scene.events(EventKind::stops), IsEmpty());
+}
+
 TEST(Standstills, SlowDrivingIsNone) {
     DrivenTracks scene;
     scene.drive({20, 60}, 0, {{4, 36, 36}, {3, 36, 5}, {6, 5, 5}, {3, 5, 36}, {4, 36, 36}});

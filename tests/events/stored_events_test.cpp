@@ -94,6 +94,7 @@ TEST(StoredEvents, TracksAreReadAsTheRunFoundThemAndAsPeopleCorrectedThem) {
             // The third is not sure in any frame, so it is no track of the result.
             state.status = id == 3 ? TrackStatus::tentative : TrackStatus::confirmed;
             state.score = 0.25 * id;
+            if (frame == 3) state.origin = StateOrigin::predicted;
             if (id != 2 || frame > 1) result.tracks.push_back(state);
         }
     });
@@ -108,6 +109,7 @@ TEST(StoredEvents, TracksAreReadAsTheRunFoundThemAndAsPeopleCorrectedThem) {
     ASSERT_EQ(found.tracks[1].boxes.size(), 2U);
     EXPECT_EQ(found.tracks[1].boxes[1].frame, 3);
     EXPECT_EQ(found.tracks[1].boxes[1].box.centre, cv::Point2d(23, 5));
+    for (const EventTrack& track : found.tracks) EXPECT_EQ(track.seen_until, 2) << track.id;
     EXPECT_THAT(found.scores, ElementsAre(testing::Pair(1, 0.25), testing::Pair(2, 0.5)));
 
     CorrectedTracks corrected;  // the first is rejected, the second is another, and there is a new one
@@ -119,12 +121,17 @@ TEST(StoredEvents, TracksAreReadAsTheRunFoundThemAndAsPeopleCorrectedThem) {
         at.state.box = {{100.0 * id, 5}, 8, 4, 0};
         at.state.score = 1;
         corrected.tracks[id].states = {at};
+        if (id == 2) continue;
+        at.frame = 2;
+        at.state.origin = StateOrigin::predicted;
+        corrected.tracks[id].states.push_back(at);
     }
     const StoredTracks mended = readTracks(store, run, corrected);
     ASSERT_EQ(mended.tracks.size(), 2U);
     for (const EventTrack& track : mended.tracks) {
-        ASSERT_EQ(track.boxes.size(), 1U) << track.id;
+        ASSERT_EQ(track.boxes.size(), track.id == 2 ? 1U : 2U) << track.id;
         EXPECT_EQ(track.boxes[0].frame, 1);
+        EXPECT_EQ(track.seen_until, 1) << track.id;
         EXPECT_EQ(track.boxes[0].box.centre.x, 100.0 * track.id);
     }
     EXPECT_THAT(mended.scores, ElementsAre(testing::Pair(2, 1), testing::Pair(7, 1)));

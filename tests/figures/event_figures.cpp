@@ -18,8 +18,21 @@ using namespace eyrie;
 
 constexpr double kNear_s = 1;
 constexpr double kNearLengths = 2;
+constexpr double kAway_s = 1;
 
-/// Vehicles of the ground truth. One that stands is to be ignored there; what never counts is no vehicle that moves.
+/// One that left the picture and comes back appears once more: nobody saw what it did meanwhile.
+std::vector<EventTrack> visitsOf(const EventTrack& vehicle, double rate_hz) {
+    std::vector<EventTrack> visits;
+    for (const TrackedBox& box : vehicle.boxes) {
+        if (visits.empty() || box.frame - visits.back().boxes.back().frame > kAway_s * rate_hz)
+            visits.push_back({vehicle.id, {}});
+        visits.back().boxes.push_back(box);
+    }
+    return visits;
+}
+
+/// Vehicles of the ground truth, each visit to the picture by itself. One that stands is to be ignored there; what
+/// never counts is no vehicle that moves, and people on foot are none.
 std::vector<EventTrack> trueTracks(const std::string& file, const Footage& footage) {
     const LabelFile labels = readLabels(file);
     std::map<int, EventTrack> tracks;
@@ -27,7 +40,7 @@ std::vector<EventTrack> trueTracks(const std::string& file, const Footage& foota
     for (const auto& [frame, boxes] : labels.boxes) {
         if (frame < footage.first_frame || frame > footage.last_frame) continue;
         for (const LabelBox& box : boxes) {
-            if (!box.id) continue;
+            if (!box.id || box.object_class == "person") continue;
             EventTrack& track = tracks[*box.id];
             track.id = *box.id;
             track.boxes.push_back({frame, box.box});
@@ -35,8 +48,13 @@ std::vector<EventTrack> trueTracks(const std::string& file, const Footage& foota
         }
     }
     std::vector<EventTrack> vehicles;
-    for (auto& [id, track] : tracks)
-        if (counted.contains(id)) vehicles.push_back(std::move(track));
+    for (const auto& [id, track] : tracks) {
+        if (!counted.contains(id)) continue;
+        for (EventTrack& visit : visitsOf(track, footage.scale.frame_rate_hz)) {
+            visit.id = static_cast<TrackId>(vehicles.size()) + 1;
+            vehicles.push_back(std::move(visit));
+        }
+    }
     return vehicles;
 }
 

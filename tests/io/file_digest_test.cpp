@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <fstream>
+#include <utility>
 
 #include "core/error.h"
 #include "support/temporary_folder.h"
@@ -40,6 +42,47 @@ TEST(FileDigest, ofAFolderIsThatOfItsImagesAndTheirNames) {
     EXPECT_EQ(sha256Of(folder / "all"), before);
     std::filesystem::rename(folder / "frame2.png", folder / "frame3.png");
     EXPECT_NE(sha256Of(folder.path()), before);
+}
+
+TEST(FileDigest, ofAListingTellsWhatIsThereAndFromWhen) {
+    const test::TemporaryFolder folder;
+    std::filesystem::create_directories(folder / "day");
+    write(folder / "day/a.png", "1");
+    write(folder / "day/B.png", "2");
+    std::string before = listingDigestOf(folder / "day");
+    EXPECT_EQ(before.size(), 64U);
+    const auto differs = [&] {
+        const std::string now = listingDigestOf(folder / "day");
+        return std::exchange(before, now) != now;
+    };
+    write(folder / "day/notes.txt", "of no account");
+    EXPECT_FALSE(differs());
+    write(folder / "day/c.png", "3");
+    EXPECT_TRUE(differs());
+    std::filesystem::remove(folder / "day/a.png");
+    EXPECT_TRUE(differs());
+    std::filesystem::rename(folder / "day/c.png", folder / "day/A.png");
+    EXPECT_TRUE(differs());
+    const auto written = std::filesystem::last_write_time(folder / "day/A.png");
+    write(folder / "day/A.png", "long");
+    std::filesystem::last_write_time(folder / "day/A.png", written);
+    EXPECT_TRUE(differs());
+    std::filesystem::last_write_time(folder / "day/A.png", written - std::chrono::hours(1));
+    EXPECT_TRUE(differs());
+    EXPECT_EQ(listingDigestOf(folder / "absent"), "");
+    EXPECT_EQ(listingDigestOf("scene:stops"), "");
+}
+
+TEST(FileDigest, ofAListingOfPartsIsThatOfTheListAndItsParts) {
+    const test::TemporaryFolder folder;
+    for (const char* name : {"a.mp4", "b.mp4"}) write(folder / name, "video");
+    write(folder / "whole.parts", "file\na.mp4\n");
+    const std::string one = listingDigestOf(folder / "whole.parts");
+    write(folder / "whole.parts", "file\na.mp4\nb.mp4\n");
+    const std::string two = listingDigestOf(folder / "whole.parts");
+    EXPECT_NE(two, one);
+    write(folder / "b.mp4", "another");
+    EXPECT_NE(listingDigestOf(folder / "whole.parts"), two);
 }
 
 TEST(FileDigest, ofTheEdgesAre64KilobytesAtEitherEnd) {

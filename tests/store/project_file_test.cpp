@@ -149,6 +149,7 @@ TEST_F(ProjectFileTest, AnOlderProjectIsBroughtUpToDateEvenForReading) {
                   "DROP VIEW v_runs",
                   "ALTER TABLE run DROP COLUMN rate_assumed",
                   "ALTER TABLE run DROP COLUMN started_fraction_us",
+                  "ALTER TABLE run DROP COLUMN source_digest",
                   "ALTER TABLE sequence DROP COLUMN rate_assumed",
                   "ALTER TABLE sequence DROP COLUMN start_utc",
                   "ALTER TABLE run DROP COLUMN scale_growth_right",
@@ -400,7 +401,7 @@ TEST_F(ProjectFileTest, StatesOfBeforeSchemaTwentyAreReadAsTheyWere) {
                   "ALTER TABLE sequence DROP COLUMN start_utc", "DROP INDEX doubtful_state_of_track",
                   "DROP VIEW v_detections", "DROP VIEW v_track_evidence", "ALTER TABLE detection DROP COLUMN decision",
                   "ALTER TABLE track_evidence DROP COLUMN decision", "DROP TABLE rejected_proposal",
-                  "ALTER TABLE run DROP COLUMN started_fraction_us",
+                  "ALTER TABLE run DROP COLUMN started_fraction_us", "ALTER TABLE run DROP COLUMN source_digest",
                   "CREATE INDEX track_state_of_track ON track_state (run_id, track_id, frame)",
                   "PRAGMA user_version = 19"});
     ProjectFile project = ProjectFile::open(path_);

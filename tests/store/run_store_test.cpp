@@ -318,7 +318,9 @@ std::vector<TrackFrame> finishedTrack() {
         state.box = {{10.0 + frame, 20}, 12, 6, 0.5};
         state.velocity = {1, 0};
         state.status = frame == 5 ? TrackStatus::coasting : TrackStatus::confirmed;
-        state.origin = frame == 5 ? StateOrigin::reconstructed : StateOrigin::detected;
+        state.origin = frame == 4   ? StateOrigin::detected
+                       : frame == 5 ? StateOrigin::reconstructed
+                                    : StateOrigin::predicted;
         state.age = frame - 4;
         state.hits = 1;
         state.score = 0.75;
@@ -338,7 +340,7 @@ TEST_F(RunStoreTest, WhatTheStatesOfAFinishedTrackHaveInCommonIsStoredOnceAndRea
     EXPECT_EQ(database.execAndGet("SELECT score FROM track").getDouble(), 0.75);
     EXPECT_EQ(database.execAndGet("SELECT x_sum FROM track").getDouble(), 14 + 15 + 17);
     EXPECT_EQ(database.execAndGet("SELECT group_concat(status, '|') FROM track_state").getString(), "|c|");
-    EXPECT_EQ(database.execAndGet("SELECT group_concat(origin, '|') FROM track_state").getString(), "|r|");
+    EXPECT_EQ(database.execAndGet("SELECT group_concat(origin, '|') FROM track_state").getString(), "|r|p");
 
     std::vector<TrackFrame> visited;
     store.visitTrackStates(run, [&](FrameIndex frame, const TrackState& state) { visited.push_back({frame, state}); });
@@ -353,13 +355,14 @@ TEST_F(RunStoreTest, WhatTheStatesOfAFinishedTrackHaveInCommonIsStoredOnceAndRea
         }
     }
     std::size_t place = 0;
-    store.visitTrackPlaces(run, [&](FrameIndex frame, TrackId track, const OrientedBox& box) {
+    store.visitTrackPlaces(run, [&](FrameIndex frame, TrackId track, const OrientedBox& box, bool seen) {
         ASSERT_LT(place, written.size());
         EXPECT_EQ(frame, written[place].frame);
         EXPECT_EQ(track, 3);
         EXPECT_EQ(box.centre, written[place].state.box.centre);
         EXPECT_EQ(box.length, written[place].state.box.length);
         EXPECT_EQ(box.heading, written[place].state.box.heading);
+        EXPECT_EQ(seen, frame != 7);
         ++place;
     });
     EXPECT_EQ(place, written.size());

@@ -58,7 +58,8 @@ TEST_F(VideoStart, IsNotKnownOfAProjectOfBefore) {
         "ALTER TABLE sequence DROP COLUMN start_utc; DROP INDEX doubtful_state_of_track; DROP VIEW v_detections; "
         "DROP VIEW v_track_evidence; ALTER TABLE detection DROP COLUMN decision; "
         "ALTER TABLE track_evidence DROP COLUMN decision; DROP TABLE rejected_proposal; "
-        "ALTER TABLE run DROP COLUMN started_fraction_us; PRAGMA user_version = 20");
+        "ALTER TABLE run DROP COLUMN started_fraction_us; ALTER TABLE run DROP COLUMN source_digest; PRAGMA "
+        "user_version = 20");
     ProjectFile project = ProjectFile::open(path_);
     EXPECT_EQ(schema::numberOf(project.database()), schema::currentNumber());
     EXPECT_EQ(videoStartOf(project, 1), std::nullopt);

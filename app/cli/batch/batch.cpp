@@ -11,10 +11,13 @@
 #include "core/error.h"
 #include "core/project_name.h"
 #include "core/utc_time.h"
+#include "io/file_digest.h"
 #include "io/folder.h"
+#include "io/video/image_sequence.h"
 #include "store/labels/annotation_store.h"
 #include "store/runs/run_counts.h"
 #include "store/runs/run_store.h"
+#include "store/runs/source_digest.h"
 
 namespace eyrie::cli {
 namespace {
@@ -66,8 +69,26 @@ bool isNewer(const BatchInput& input, const RunRecord& run) {
     return (input.changed_ns + step_ns) / 1000 >= *began_us;
 }
 
-/// Takes over what its project says of an input; answers the finished run, if there is one.
-std::optional<RunRecord> takeFacts(BatchRow& row, const ResumeWishes& wishes) {
+/// Whether the files of an input lie there otherwise than when a run of it began: some were put in, taken away or
+/// replaced, be it by older ones. Of a run of before schema 27 it is known of pictures only how many they were.
+bool isOfOtherFiles(const BatchInput& input, const RunRecord& run, ProjectFile& project) {
+    if (const std::string then = sourceDigestOf(project, run.id); !then.empty()) {
+        const std::string now = listingDigestOf(input.path);
+        return !now.empty() && now != then;
+    }
+    return isFolder(input.path) && imagesIn(input.path).size() != static_cast<std::size_t>(run.sequence.frame_count);
+}
+
+/// What a project holds of an input.
+struct Begun {
+    RunRecord run;
+    bool of_other_contents = false;  ///< the input has changed since the run began
+
+    bool isFinished() const { return run.state == RunState::finished; }
+};
+
+/// Takes over what its project says of an input; answers the run, if there is one.
+std::optional<Begun> takeFacts(BatchRow& row, const ResumeWishes& wishes) {
     if (!isFile(row.project)) return std::nullopt;
     ProjectFile file = ProjectFile::open(row.project, ProjectFile::Mode::read_only);
     const RunStore store(file);
@@ -77,7 +98,9 @@ std::optional<RunRecord> takeFacts(BatchRow& row, const ResumeWishes& wishes) {
     const RunCounts counts = countRun(file, run->id);
     row.unregistered = counts.unregistered;
     row.tracks = counts.tracks;
-    return run->state == RunState::finished ? run : std::nullopt;
+    const bool is_finished = run->state == RunState::finished;
+    // One that has not ended looks at the pictures again, and may go on though a file was touched while it began.
+    return Begun{*run, isOfOtherFiles(row.input, *run, file) || (is_finished && isNewer(row.input, *run))};
 }
 
 bool isOver(BatchState state) {
@@ -165,9 +188,11 @@ void Batch::begin(std::size_t number) {
     BatchRow& row = rows_[number];
     if (!row.input.fault.empty()) return close(number, BatchState::failed, row.input.fault);
     try {
-        const auto run = row.anew ? std::nullopt : takeFacts(row, options_.wishes);
-        if (run && !isNewer(row.input, *run)) return close(number, BatchState::done_before, "");
-        row.anew = row.anew || run.has_value();
+        const auto begun = row.anew ? std::nullopt : takeFacts(row, options_.wishes);
+        if (begun && begun->isFinished() && !begun->of_other_contents)
+            return close(number, BatchState::done_before, "");
+        // One that another program writes is left to it, whatever has changed.
+        row.anew = row.anew || (begun && begun->of_other_contents && !begun->run.live);
     } catch (const Error& error) {
         return close(number, BatchState::failed, error.what());
     }
@@ -198,9 +223,9 @@ void Batch::end(std::size_t number, const ChildEnd& how) {
     std::string fault = "ended without a finished run; perhaps somebody else works on its project";
     std::string remark;
     try {
-        if (const auto run = takeFacts(row, options_.wishes)) {
+        if (const auto begun = takeFacts(row, options_.wishes); begun && begun->isFinished()) {
             fault.clear();
-            remark = run->message;
+            remark = begun->run.message;
         }
     } catch (const Error& error) {
         fault = error.what();

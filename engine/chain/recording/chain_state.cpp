@@ -8,6 +8,8 @@
 #include "core/state_values.h"
 #include "detection/sliding_window/model_location.h"
 #include "io/atomic_file.h"
+#include "io/folder.h"
+#include "io/video/image_sequence.h"
 
 namespace eyrie {
 namespace {
@@ -65,6 +67,14 @@ Unpacked unpacked(std::string_view bytes, const ChainOptions& options, const Sce
     throw Error(ErrorKind::input,
                 modelLocation(options.detection.sliding_window.model).string() +
                     " is not the classifier that the run was started with; put the old file back, or start a new run");
+}
+
+/// " (frame7.png)" for a picture of a folder, which may have been replaced or renamed.
+std::string pictureName(const VideoInfo& video, FrameIndex frame) {
+    if (!video.is_image_sequence || !isFolder(video.path)) return "";
+    const std::vector<std::filesystem::path> pictures = imagesIn(video.path);
+    const auto at = static_cast<std::size_t>(frame);
+    return at < pictures.size() ? " (" + pictures[at].filename().string() + ")" : "";
 }
 
 template <class Stage>
@@ -137,10 +147,10 @@ std::unique_ptr<ChainProgress> unpackedState(std::string_view bytes, const Chain
     } catch (const DamagedState&) {
         return nullptr;
     } catch (const ChangedPicture& changed) {
-        throw Error(
-            ErrorKind::input,
-            video.path.string() + " is not the same video any more: frame " + std::to_string(changed.frame) +
-                " shows something else than when the run was started; put the old video back, or start a new run");
+        throw Error(ErrorKind::input, video.path.string() + " is not the same video any more: frame " +
+                                          std::to_string(changed.frame) + pictureName(video, changed.frame) +
+                                          " shows something else than when the run was started; put the old video "
+                                          "back, or start a new run");
     }
 }
 

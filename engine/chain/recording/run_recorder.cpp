@@ -6,9 +6,11 @@
 
 #include "chain/recording/classified_vehicles.h"
 #include "core/error.h"
+#include "io/file_digest.h"
 #include "io/video/frame_source.h"
 #include "store/project/project_file.h"
 #include "store/runs/run_state_store.h"
+#include "store/runs/source_digest.h"
 #include "tracking/ground_motion.h"
 
 namespace eyrie {
@@ -36,7 +38,13 @@ RunRecorder::RunRecorder(const std::filesystem::path& project, RunRecord run, co
       scale_(run.scale),
       range_{run.first_frame, run.last_frame},
       writer_(project, std::move(run), storedParameters(options, recording), may_add),
-      also_(also) {}
+      also_(also) {
+    ProjectFile file = ProjectFile::open(project_);
+    const RunRecord begun = RunStore(file).run(runId()).value();
+    // What comes live is no file yet, or one that grows.
+    const bool is_live = begun.last_frame < begun.first_frame;
+    if (!is_live) storeSourceDigest(file, runId(), listingDigestOf(begun.sequence.path));
+}
 
 RunRecorder::RunRecorder(const std::filesystem::path& project, const ResumedRun& resumed, ChainObserver* also)
     : project_(project),

@@ -10,6 +10,8 @@ namespace {
 
 constexpr double kSure = 3;                 ///< deviations
 constexpr std::size_t kFewestInWindow = 3;  ///< samples that tell a speed
+constexpr double kSeenOfStandstill = 0.4;   ///< share of the least time that a track must show that is lost in it
+constexpr double kUnseen_s = 0.1;           ///< between the last that was seen of a vehicle and its standstill
 
 /// Places and velocities by a straight line through the samples of a window around each; near the ends of the path the
 /// window is cut off.
@@ -69,7 +71,14 @@ void set(GroundPath& path, const SampleSpan& span, bool moving) {
     for (std::size_t i = span.first; i <= span.last; ++i) path.samples[i].moving = moving;
 }
 
-void removeShortSpans(GroundPath& path, double min_way, const EventOptions& options, const SceneScale& scale) {
+/// Whether a track is lost in its last standstill, having been seen until it stood. Where it was not, its prediction
+/// may have come to rest instead; and where the video ends nobody knows how it went on.
+bool isLostStanding(const GroundPath& path, const SampleSpan& span, const Footage& footage) {
+    return path.ends && span.last + 1 == path.samples.size() && path.samples[span.last].frame < footage.last_frame &&
+           path.samples[span.first].frame <= path.track->seen_until + kUnseen_s * footage.scale.frame_rate_hz;
+}
+
+void removeShortSpans(GroundPath& path, double min_way, const EventOptions& options, const Footage& footage) {
     const auto isWhole = [&](const SampleSpan& span) {
         return span.first == 0 && span.last + 1 == path.samples.size();
     };
@@ -78,8 +87,9 @@ void removeShortSpans(GroundPath& path, double min_way, const EventOptions& opti
         if (!isWhole(span) && moved < min_way) set(path, span, false);
     }
     for (const SampleSpan& span : spansOf(path, false)) {
-        if (!isWhole(span) && secondsBetween(path, span.first, span.last, scale) < options.min_standing_s)
-            set(path, span, true);
+        // Tracks are lost where nothing moves any more: a stop is often the last that they show.
+        const double least = options.min_standing_s * (isLostStanding(path, span, footage) ? kSeenOfStandstill : 1);
+        if (!isWhole(span) && secondsBetween(path, span.first, span.last, footage.scale) < least) set(path, span, true);
     }
 }
 
@@ -131,7 +141,7 @@ std::vector<GroundPath> piecesOf(const EventTrack& track, const GroundStretches&
             const double noise = speedOfNoise(noise_m, half_window, scale.frame_rate_hz);
             const double standing = std::max(options.standing_speed_kmh / 3.6, noise);
             tellMoving(path, standing, std::max({options.moving_speed_kmh / 3.6, standing, 1.5 * noise}));
-            removeShortSpans(path, std::max(options.min_way_m, 2 * kSure * noise_m), options, scale);
+            removeShortSpans(path, std::max(options.min_way_m, 2 * kSure * noise_m), options, ground.footage());
         }
         pieces.push_back(std::move(path));
     }

@@ -10,4 +10,9 @@ void addStartFractions(SQLite::Database& database) {
     database.exec("ALTER TABLE run ADD COLUMN started_fraction_us INTEGER");
 }
 
+// How the files of its video lay there when a run began (io/file_digest.h); empty of those of before.
+void addSourceDigests(SQLite::Database& database) {
+    database.exec("ALTER TABLE run ADD COLUMN source_digest TEXT NOT NULL DEFAULT ''");
+}
+
 }  // namespace eyrie::schema

@@ -40,7 +40,8 @@ constexpr std::array kMigrations{addRuns,
                                  addDoubtfulIndex,
                                  addDecisions,
                                  addRejectedProposals,
-                                 addStartFractions};
+                                 addStartFractions,
+                                 addSourceDigests};
 
 }  // namespace
 

@@ -34,5 +34,6 @@ void addDoubtfulIndex(SQLite::Database& database);
 void addDecisions(SQLite::Database& database);
 void addRejectedProposals(SQLite::Database& database);
 void addStartFractions(SQLite::Database& database);
+void addSourceDigests(SQLite::Database& database);
 
 }  // namespace eyrie::schema

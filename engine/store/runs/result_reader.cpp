@@ -285,15 +285,17 @@ void RunStore::visitTrackStates(int run_id, const StateVisitor& visitor) const {
 
 void RunStore::visitTrackPlaces(int run_id, const PlaceVisitor& visitor) const {
     guarded(project_.path(), "reading the tracks" + ofRun(run_id), [&] {
-        SQLite::Statement statement(project_.database(),
-                                    "SELECT frame, track_id, x, y, length, width, heading_rad FROM track_state WHERE "
-                                    "run_id = ? ORDER BY frame, track_id");
+        SQLite::Statement statement(
+            project_.database(),
+            "SELECT frame, track_id, x, y, length, width, heading_rad, origin FROM track_state WHERE "
+            "run_id = ? ORDER BY frame, track_id");
         statement.bind(1, run_id);
         while (statement.executeStep()) {
             RowReader row(statement);
             const FrameIndex frame = readFrameNumber(row);
             const TrackId track = row.integer();
-            visitor(frame, track, row.box());
+            const OrientedBox box = row.box();
+            visitor(frame, track, box, row.word(stored::kStateOrigins) != StateOrigin::predicted);
         }
     });
 }

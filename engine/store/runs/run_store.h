@@ -157,7 +157,8 @@ class RunStore {
     using StateVisitor = TracksOfRun::StateVisitor;
     void visitTrackStates(int run_id, const StateVisitor& visitor) const;
     /// Where every track is, in the same order: an hour has a million states, and most of a state is seldom asked for.
-    using PlaceVisitor = std::function<void(FrameIndex, TrackId, const OrientedBox&)>;
+    /// `seen`: the box is no mere prediction.
+    using PlaceVisitor = std::function<void(FrameIndex, TrackId, const OrientedBox&, bool seen)>;
     void visitTrackPlaces(int run_id, const PlaceVisitor& visitor) const;
     /// The run's result as boxes: every state of the confirmed tracks with the word of the track's class, or the kept
     /// detections (id and class empty).

@@ -53,7 +53,8 @@ TEST_F(RejectedProposals, ThereAreNoneInAProjectOfBefore) {
     {
         SQLite::Database database(path_.string(), SQLite::OPEN_READWRITE);
         database.exec(
-            "DROP TABLE rejected_proposal; ALTER TABLE run DROP COLUMN started_fraction_us; PRAGMA user_version = 24");
+            "DROP TABLE rejected_proposal; ALTER TABLE run DROP COLUMN started_fraction_us; ALTER TABLE run DROP "
+            "COLUMN source_digest; PRAGMA user_version = 24");
     }
     ProjectFile project = ProjectFile::open(path_);
     EXPECT_EQ(schema::numberOf(project.database()), schema::currentNumber());
