@@ -238,6 +238,55 @@ TEST(BoxPatch, PartsThatShowLittleDoNotCount) {
     EXPECT_EQ(seen(0, 0), 0) << "nothing is shown at all";
 }
 
+TEST(BoxPatch, IsSeenByTheShareOfItsPartsThatCorrelateWhateverTheirSize) {
+    cv::RNG dice(4);
+    int in_part = 0;
+    for (int round = 0; round < 200; ++round) {
+        const cv::Size size(dice.uniform(6, 49), dice.uniform(6, 49));
+        // Texture in some places, little in others; the other picture is the same but for noise of its own strength.
+        cv::Mat whole(size, CV_64FC1), other(size, CV_64FC1);
+        dice.fill(whole, cv::RNG::NORMAL, 0, 1);
+        dice.fill(other, cv::RNG::NORMAL, 0, 1);
+        for (int y = 0; y < size.height; ++y) {
+            for (int x = 0; x < size.width; ++x) {
+                whole.at<double>(y, x) *= 8 + 22.0 * (x + y) / (size.width + size.height);
+                other.at<double>(y, x) = whole.at<double>(y, x) + other.at<double>(y, x) * (12 + 24.0 * x / size.width);
+            }
+        }
+        cv::Mat whole_bytes, other_bytes;
+        whole.convertTo(whole_bytes, CV_8U, 1, 128);
+        other.convertTo(other_bytes, CV_8U, 1, 128);
+        const int columns = std::max(2, size.width / 8), rows = std::max(2, size.height / 8);
+        const auto partOf = [&](const cv::Mat& picture, int column, int row) {
+            std::vector<double> values;
+            for (int y = size.height * row / rows; y < size.height * (row + 1) / rows; ++y)
+                for (int x = size.width * column / columns; x < size.width * (column + 1) / columns; ++x)
+                    values.push_back(picture.at<unsigned char>(y, x));
+            return values;
+        };
+        const auto scatterOf = [](const std::vector<double>& values) {
+            const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+            return std::accumulate(values.begin(), values.end(), 0.0,
+                                   [&](double sum, double value) { return sum + (value - mean) * (value - mean); });
+        };
+        const double all = scatterOf({whole_bytes.begin<unsigned char>(), whole_bytes.end<unsigned char>()});
+        int parts = 0, alike = 0;
+        for (int row = 0; row < rows; ++row) {
+            for (int column = 0; column < columns; ++column) {
+                const std::vector<double> mine = partOf(other_bytes, column, row),
+                                          its = partOf(whole_bytes, column, row);
+                if (scatterOf(its) * columns * rows < 0.15 * all) continue;
+                ++parts;
+                alike += correlationOf(mine, its) > 0.7;
+            }
+        }
+        const double expected = parts == 0 ? 0 : static_cast<double>(alike) / parts;
+        EXPECT_NEAR(patchOfAll(other_bytes).seenOf(patchOfAll(whole_bytes)), expected, 1e-9) << size;
+        in_part += alike > 0 && alike < parts;
+    }
+    EXPECT_GE(in_part, 100);
+}
+
 TEST(BoxPatch, LearnsByShares) {
     BoxPatch patch = patchOf(texture(), kLorry);
     const BoxPatch start = patch;
