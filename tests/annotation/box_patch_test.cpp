@@ -118,6 +118,22 @@ TEST(BoxPatch, IsWhatThePictureShowsInTheBoxAndALittleBeyond) {
     }
 }
 
+TEST(BoxPatch, IsWhatThePictureShowsWhereverItsBorderLies) {
+    cv::RNG dice(6);
+    const cv::Mat picture = test::groundTexture({60, 40}, 4, 0.8, 10, 245);
+    for (int round = 0; round < 400; ++round) {
+        const cv::Size samples(dice.uniform(6, 20), dice.uniform(6, 20));
+        const OrientedBox here{{30, 20}, dice.uniform(8.0, 30.0), dice.uniform(6.0, 20.0), dice.uniform(-3.0, 3.0)};
+        OrientedBox there = here;
+        there.centre = {dice.uniform(-8.0, 68.0), dice.uniform(-6.0, 46.0)};
+        if (round % 2 == 0) there.heading = dice.uniform(0, 4) * CV_PI / 2;
+        const double expected = correlationOf(samplesOf(picture, here, samples), samplesOf(picture, there, samples));
+        if (std::isnan(expected)) continue;  // all of one row or column, all the same
+        EXPECT_NEAR(BoxPatch(picture, here, samples).correlation(BoxPatch(picture, there, samples)), expected, 3e-3)
+            << there.centre << there.heading;
+    }
+}
+
 TEST(BoxPatch, ShowsTheLastRowAndColumnOfThePicture) {
     // A bright border one pixel wide: it is all that is seen beyond it.
     cv::Mat picture(40, 60, CV_8UC1, cv::Scalar(0));

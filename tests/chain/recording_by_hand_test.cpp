@@ -223,6 +223,60 @@ TEST(RecordedByHand, TheScaleIsWhatIsGivenOrWhatTheSourceKnows) {
     EXPECT_EQ(gsd(0, -1), 0);
 }
 
+TEST(RecordedByHand, RunsThatEndedEarlyAreOfferedTheNewestFirst) {
+    const test::TemporaryFolder folder;
+    const std::filesystem::path project = folder / "p.eyrie";
+    const auto begun = [&] {
+        return std::make_unique<RunRecorder>(project, plannedRun(clipOf(4), {}, {}, "default"), ChainOptions{});
+    };
+    for (const RunOutcome outcome : {RunOutcome::stopped, RunOutcome::finished, RunOutcome::failed}) {
+        const auto recorder = begun();
+        EXPECT_EQ(recorder->medianStoreMs(), 0) << "nothing is stored yet";
+        const auto result = std::make_shared<FrameResult>();
+        result->motion.image_size = {320, 240};
+        recorder->onFrame(result, {});
+        EXPECT_GT(recorder->medianStoreMs(), 0);
+        RunSummary summary;
+        summary.outcome = outcome;
+        recorder->finish(summary);
+    }
+    const auto killed = [&] { return begun()->runId(); }();
+    const auto written = begun();
+    ProjectFile file = ProjectFile::open(project);
+    const RunStore store(file);
+    std::vector<int> offered;
+    for (const RunRecord& run : resumableRuns(store)) offered.push_back(run.id);
+    EXPECT_EQ(offered, (std::vector{killed, 3, 1}));
+    EXPECT_EQ(resumeObstacle(store, *store.run(2)), ResumeObstacle::finished);
+    EXPECT_EQ(resumeObstacle(store, *store.run(written->runId())), ResumeObstacle::live);
+    test::MemorySource source(4, {320, 240}, [](int) { return cv::Mat(240, 320, CV_8UC1, cv::Scalar(0)); });
+    const auto refused = [&](int run) {
+        try {
+            resumedRun(project, run, source);
+            return std::pair(ErrorKind::internal, std::string("taken up"));
+        } catch (const Error& error) {
+            return std::pair(error.kind(), std::string(error.what()));
+        }
+    };
+    EXPECT_EQ(refused(written->runId()).first, ErrorKind::project);
+    EXPECT_THAT(refused(written->runId()).second, testing::HasSubstr("is being written by process"));
+    EXPECT_EQ(refused(2).first, ErrorKind::parameter);
+    EXPECT_THAT(refused(2).second,
+                testing::HasSubstr("run 2 of " + project.string() + " cannot be resumed: it is fin"));
+    EXPECT_THAT(refused(9).second, testing::HasSubstr("there is no such run"));
+    // What has changed of the video is told, whichever side it is.
+    for (const cv::Size size : {cv::Size(320, 239), {319, 240}}) {
+        test::MemorySource other(4, size, [&](int) { return cv::Mat(size, CV_8UC1, cv::Scalar(0)); });
+        try {
+            resumedRun(project, 1, other);
+            ADD_FAILURE() << size;
+        } catch (const Error& error) {
+            const std::string now = std::to_string(size.width) + "×" + std::to_string(size.height) + " px now";
+            EXPECT_THAT(error.what(), testing::HasSubstr(now + ", 320×240 px then"));
+        }
+    }
+}
+
 TEST(HeldPictures, AreThoseOfTheRange) {
     RunPictures held({5, 7});
     const auto picture = [](int grey) { return cv::Mat(4, 4, CV_8UC1, cv::Scalar(grey)); };
