@@ -11,7 +11,7 @@
 
 /// The motion of a box and of the camera around it against one that is written as its rules are told, with turns and
 /// scales as complex numbers, over drawn pictures in which parts move otherwise.
-namespace eyrie::slow_flow_test {
+namespace eyrie::slow_box_flow_test {
 namespace {
 
 using Place = std::complex<double>;
@@ -225,7 +225,7 @@ Pair pairOf(cv::RNG& dice, std::uint64_t seed) {
 
 }  // namespace
 
-TEST(SlowFlow, BoxesMoveAsTheRulesSay) {
+TEST(SlowBoxFlow, BoxesMoveAsTheRulesSay) {
     int fewer_agree = 0, cut_short = 0, few = 0;
     for (std::uint64_t seed = 1; seed <= 150; ++seed) {
         SCOPED_TRACE(seed);
@@ -251,7 +251,7 @@ TEST(SlowFlow, BoxesMoveAsTheRulesSay) {
     EXPECT_GE(few, 10);
 }
 
-TEST(SlowFlow, TheCameraMovesAsTheRulesSay) {
+TEST(SlowBoxFlow, TheCameraMovesAsTheRulesSay) {
     int told = 0;
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {
         SCOPED_TRACE(seed);
@@ -268,4 +268,4 @@ TEST(SlowFlow, TheCameraMovesAsTheRulesSay) {
     EXPECT_GE(told, 50);
 }
 
-}  // namespace eyrie::slow_flow_test
+}  // namespace eyrie::slow_box_flow_test
