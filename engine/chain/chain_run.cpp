@@ -203,7 +203,7 @@ class ProgressMeter {
         progress.frames_done = ++done_;
         progress.frames_total = total_;
         const double span = std::chrono::duration<double>(recent_.back() - recent_.front()).count();
-        if (recent_.size() > 1 && span > 0) {
+        if (span > 0) {
             progress.frames_per_second = static_cast<double>(recent_.size() - 1) / span;
             progress.seconds_left = (total_ - done_) / progress.frames_per_second;
         }
