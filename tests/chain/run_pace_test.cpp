@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "chain/chain_run.h"
+#include "chain/progress_meter.h"
 #include "core/values/last_frame.h"
 #include "support/moving_scene.h"
 #include "support/wait_until.h"
@@ -76,6 +77,26 @@ struct RepeatingSource : test::MemorySource {
 };
 
 }  // namespace
+
+TEST(RunPace, IsToldOverTheLastFiveSecondsOrTheLastTwoFrames) {
+    ProgressMeter meter(100, 10);
+    const auto at = [&](int milliseconds) {
+        return meter.frameDone(ProgressMeter::Moment() + std::chrono::milliseconds(milliseconds));
+    };
+    const RunProgress first = at(0);
+    EXPECT_EQ(first.frames_done, 11);
+    EXPECT_EQ(first.frames_total, 100);
+    EXPECT_EQ(first.frames_per_second, 0);
+    EXPECT_EQ(first.seconds_left, 0);
+    EXPECT_NEAR(at(8000).frames_per_second, 1 / 8.0, 1e-9) << "slow, but two frames";
+    EXPECT_NEAR(at(9000).frames_per_second, 1, 1e-9) << "the first one is too long ago";
+    EXPECT_NEAR(at(9500).frames_per_second, 2 / 1.5, 1e-9);
+    const RunProgress fifth = at(13000);
+    EXPECT_NEAR(fifth.frames_per_second, 3 / 5.0, 1e-9) << "five seconds are not too long";
+    EXPECT_EQ(fifth.frames_done, 15);
+    EXPECT_NEAR(fifth.seconds_left, 85 * 5 / 3.0, 1e-9);
+    EXPECT_NEAR(at(13100).frames_per_second, 3 / 4.1, 1e-9);
+}
 
 TEST(RunPace, TheFirstHalfIsFourFramesAheadAtMost) {
     GreyPictures source(40);
