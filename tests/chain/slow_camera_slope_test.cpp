@@ -123,8 +123,8 @@ std::vector<double> slowCosts(const std::vector<cv::Matx33d>& steps) {
 }
 
 /// A camera over a plane; registrations are off by a little, each by chance.
-std::vector<cv::Matx33d> flight(cv::RNG& dice, int steps, double off_px) {
-    const double growth = dice.uniform(-0.6, 1.5), focal_length = kImage.width * dice.uniform(0.75, 1.25);
+std::vector<cv::Matx33d> flight(cv::RNG& dice, double growth, int steps, double off_px) {
+    const double focal_length = kImage.width * dice.uniform(0.75, 1.25);
     const cv::Matx33d camera(focal_length, 0, 319.5, 0, focal_length, 239.5, 0, 0, 1);
     const cv::Vec3d way(dice.uniform(-0.003, 0.003), dice.uniform(-0.003, 0.003), dice.uniform(-0.002, 0.002));
     const cv::Vec3d turn(dice.uniform(-0.0006, 0.0006), dice.uniform(-0.0006, 0.0006), dice.uniform(-0.003, 0.003));
@@ -148,11 +148,12 @@ std::vector<cv::Matx33d> flight(cv::RNG& dice, int steps, double off_px) {
 
 TEST(SlowCameraSlope, FlightsSayOfEachGrowthWhatTheDescriptionSays) {
     int told = 0, nothing = 0;
-    for (const std::uint64_t seed : {1, 2, 6}) {
+    for (const std::uint64_t seed : {1, 2, 5, 6}) {
         SCOPED_TRACE(seed);
         cv::RNG dice(seed);
-        const std::vector<cv::Matx33d> steps =
-            flight(dice, seed % 2 == 0 ? 33 : 16 + 4 * static_cast<int>(seed % 3), seed == 6 ? 3 : 0.1);
+        // The fifth sees the horizon close above the middle.
+        const double growth = seed == 5 ? 4.7 : dice.uniform(-0.6, 1.5);
+        const std::vector<cv::Matx33d> steps = flight(dice, growth, seed % 2 == 0 ? 33 : 20, seed == 6 ? 3 : 0.1);
         CameraSlope slope(kImage);
         slope.add(steps);
         const std::vector<double> slow = slowCosts(steps);
