@@ -213,14 +213,14 @@ TEST(RecordedByHand, TheScaleIsWhatIsGivenOrWhatTheSourceKnows) {
         EXPECT_EQ(scale.frame_rate_hz, 50);
         EXPECT_TRUE(scale.slope.isFlat());
         EXPECT_TRUE(scale.gsd_known || scale.gsd_m_per_px == SceneScale().gsd_m_per_px);
-        return scale.gsd_known ? scale.gsd_m_per_px : 0;
+        return scale.gsd_known ? scale.gsd_m_per_px : -1;
     };
     EXPECT_EQ(gsd(0, 0.4), 0.4);
     EXPECT_EQ(gsd(0.3, 0.4), 0.4);
     EXPECT_EQ(gsd(0.3, 0), 0.3);
     EXPECT_EQ(gsd(0.3, -1), 0.3);
-    EXPECT_EQ(gsd(0, 0), 0);
-    EXPECT_EQ(gsd(0, -1), 0);
+    EXPECT_EQ(gsd(0, 0), -1) << "nobody knows";
+    EXPECT_EQ(gsd(0, -1), -1);
 }
 
 TEST(RecordedByHand, RunsThatEndedEarlyAreOfferedTheNewestFirst) {
