@@ -113,6 +113,18 @@ TEST(RunPace, TheFirstHalfIsFourFramesAheadAtMost) {
     EXPECT_EQ(ChainRun({}, kScale).run(source, {}, observer, {}).frames_done, 40);
 }
 
+TEST(RunPace, WhereResultsCannotBeStoredTheRestIsNotRead) {
+    GreyPictures source(300);
+    struct FullDisk : ChainObserver {
+        void onFrame(const std::shared_ptr<const FrameResult>& result, const Frame&) override {
+            if (result->motion.frame == 3) throw Error(ErrorKind::output, "no space left");
+        }
+    } observer;
+    EXPECT_EQ(ChainRun({}, kScale).run(source, {}, observer, {}).outcome, RunOutcome::failed);
+    EXPECT_GE(source.reads, 4);
+    EXPECT_LE(source.reads, 9) << "four that waited, and one that was being read";
+}
+
 TEST(RunPace, OfAShortRunAStateIsKeptAfterAFifthOfTheTimeBetweenStates) {
     GreyPictures source(40, std::chrono::milliseconds(8));
     KeepsStates observer(StateKeeping{1, 1});
