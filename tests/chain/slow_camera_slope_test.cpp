@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
 
@@ -61,20 +62,29 @@ double leastCost(const std::vector<Seen>& seen, int steps, double growth, double
     std::array<double, 6> motion{};
     double cost = 0;
     for (int time = 0; time < 7; ++time) {
-        const cv::Mat off(offBy(seen, steps, growth, focal_length, motion), true);
-        cost = off.dot(off) / 2;
-        cv::Mat slopes(off.rows, 6, CV_64F);
-        for (int i = 0; i < 6; ++i) {
+        const std::vector<double> off = offBy(seen, steps, growth, focal_length, motion);
+        std::array<std::vector<double>, 6> slopes;
+        for (std::size_t i = 0; i < 6; ++i) {
             std::array<double, 6> more = motion, less = motion;
-            more[static_cast<std::size_t>(i)] += 1e-5;
-            less[static_cast<std::size_t>(i)] -= 1e-5;
-            const cv::Mat above(offBy(seen, steps, growth, focal_length, more), true);
-            const cv::Mat below(offBy(seen, steps, growth, focal_length, less), true);
-            slopes.col(i) = (above - below) / 2e-5;
+            more[i] += 1e-5;
+            less[i] -= 1e-5;
+            slopes[i] = offBy(seen, steps, growth, focal_length, more);
+            const std::vector<double> below = offBy(seen, steps, growth, focal_length, less);
+            for (std::size_t k = 0; k < below.size(); ++k) slopes[i][k] = (slopes[i][k] - below[k]) / 2e-5;
         }
-        cv::Mat change;
-        cv::solve(slopes, off, change, cv::DECOMP_QR);
-        for (int i = 0; i < 6; ++i) motion[static_cast<std::size_t>(i)] -= change.at<double>(i);
+        const auto product = [](const std::vector<double>& u, const std::vector<double>& v) {
+            return std::inner_product(u.begin(), u.end(), v.begin(), 0.0);
+        };
+        cost = product(off, off) / 2;
+        cv::Matx66d squares;
+        cv::Matx61d against;
+        for (int i = 0; i < 6; ++i) {
+            against(i) = product(slopes[static_cast<std::size_t>(i)], off);
+            for (int k = 0; k < 6; ++k)
+                squares(i, k) = product(slopes[static_cast<std::size_t>(i)], slopes[static_cast<std::size_t>(k)]);
+        }
+        const cv::Matx61d change = squares.solve(against, cv::DECOMP_CHOLESKY);
+        for (int i = 0; i < 6; ++i) motion[static_cast<std::size_t>(i)] -= change(i);
     }
     return cost;
 }
