@@ -12,6 +12,7 @@
 #include <thread>
 #include <utility>
 
+#include "chain/progress_meter.h"
 #include "chain/recording/chain_state.h"
 #include "core/error.h"
 #include "core/values/last_frame.h"
@@ -189,31 +190,6 @@ class Producer {
     ItemQueue& queue_;
     bool endless_ = source_.info().frame_count > kLastFrame;
     cv::Mat last_;  ///< picture
-};
-
-/// Frames per second over the last seconds, and what is left.
-class ProgressMeter {
- public:
-    ProgressMeter(int total, int done) : total_(total), done_(done) {}
-    RunProgress frameDone() {
-        const auto now = Clock::now();
-        recent_.push_back(now);
-        while (recent_.size() > 2 && now - recent_.front() > std::chrono::seconds(5)) recent_.pop_front();
-        RunProgress progress;
-        progress.frames_done = ++done_;
-        progress.frames_total = total_;
-        const double span = std::chrono::duration<double>(recent_.back() - recent_.front()).count();
-        if (recent_.size() > 1 && span > 0) {
-            progress.frames_per_second = static_cast<double>(recent_.size() - 1) / span;
-            progress.seconds_left = (total_ - done_) / progress.frames_per_second;
-        }
-        return progress;
-    }
-
- private:
-    int total_;
-    int done_;
-    std::deque<Clock::time_point> recent_;
 };
 
 StageTimes medianTimes(const std::vector<StageTimes>& frames) {

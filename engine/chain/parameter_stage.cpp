@@ -42,11 +42,11 @@ ChainStage firstStageOf(const std::string& parameter) {
 }
 
 ChainStage firstDifference(const ChainOptions& a, const ChainOptions& b) {
-    const std::vector<Parameter> of_a = parametersOf(a);
     const std::vector<Parameter> of_b = parametersOf(b);
+    auto other = of_b.begin();
     ChainStage first = ChainStage::none;
-    for (std::size_t i = 0; i < of_a.size(); ++i)
-        if (of_a[i].value != of_b[i].value) first = std::min(first, of_a[i].effect.stage);
+    for (const Parameter& parameter : parametersOf(a))
+        if (parameter.value != (other++)->value) first = std::min(first, parameter.effect.stage);
     return first;
 }
 

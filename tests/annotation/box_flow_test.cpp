@@ -173,6 +173,13 @@ TEST(BoxFlow, TellsHowWhatItLiesOnGrowsBeyondThePrediction) {
     }
 }
 
+TEST(BoxFlow, ABoxWithoutLengthIsFollowedByWhatLiesOnItsLine) {
+    const OrientedBox line{{120, 90}, 0, 60, 0.3};
+    const BoxFlow flow = flowOf(ground(), movedBy(ground(), motion(0, 1, {2, -1})), line, line, {});
+    EXPECT_GE(flow.agreeing, 2);
+    EXPECT_LT(between(flow.box.centre, {122, 89}), 0.5);
+}
+
 TEST(BoxFlow, NeedsSixteenPixelsOfPicture) {
     const OrientedBox small{{8, 8}, 12, 10, 0};
     const auto corners = [&](cv::Size size) {

@@ -118,6 +118,22 @@ TEST(BoxPatch, IsWhatThePictureShowsInTheBoxAndALittleBeyond) {
     }
 }
 
+TEST(BoxPatch, IsWhatThePictureShowsWhereverItsBorderLies) {
+    cv::RNG dice(6);
+    const cv::Mat picture = test::groundTexture({60, 40}, 4, 0.8, 10, 245);
+    for (int round = 0; round < 400; ++round) {
+        const cv::Size samples(dice.uniform(6, 20), dice.uniform(6, 20));
+        const OrientedBox here{{30, 20}, dice.uniform(8.0, 30.0), dice.uniform(6.0, 20.0), dice.uniform(-3.0, 3.0)};
+        OrientedBox there = here;
+        there.centre = {dice.uniform(-8.0, 68.0), dice.uniform(-6.0, 46.0)};
+        if (round % 2 == 0) there.heading = dice.uniform(0, 4) * CV_PI / 2;
+        const double expected = correlationOf(samplesOf(picture, here, samples), samplesOf(picture, there, samples));
+        if (std::isnan(expected)) continue;  // all of one row or column, all the same
+        EXPECT_NEAR(BoxPatch(picture, here, samples).correlation(BoxPatch(picture, there, samples)), expected, 3e-3)
+            << there.centre << there.heading;
+    }
+}
+
 TEST(BoxPatch, ShowsTheLastRowAndColumnOfThePicture) {
     // A bright border one pixel wide: it is all that is seen beyond it.
     cv::Mat picture(40, 60, CV_8UC1, cv::Scalar(0));
@@ -236,6 +252,55 @@ TEST(BoxPatch, PartsThatShowLittleDoNotCount) {
     EXPECT_NEAR(seen(100), 5 / 6.0, 1e-9);
     EXPECT_EQ(seen(100, 0), 0) << "all that shows anything is hidden";
     EXPECT_EQ(seen(0, 0), 0) << "nothing is shown at all";
+}
+
+TEST(BoxPatch, IsSeenByTheShareOfItsPartsThatCorrelateWhateverTheirSize) {
+    cv::RNG dice(4);
+    int in_part = 0;
+    for (int round = 0; round < 200; ++round) {
+        const cv::Size size(dice.uniform(6, 49), dice.uniform(6, 49));
+        // Texture in some places, little in others; the other picture is the same but for noise of its own strength.
+        cv::Mat whole(size, CV_64FC1), other(size, CV_64FC1);
+        dice.fill(whole, cv::RNG::NORMAL, 0, 1);
+        dice.fill(other, cv::RNG::NORMAL, 0, 1);
+        for (int y = 0; y < size.height; ++y) {
+            for (int x = 0; x < size.width; ++x) {
+                whole.at<double>(y, x) *= 8 + 22.0 * (x + y) / (size.width + size.height);
+                other.at<double>(y, x) = whole.at<double>(y, x) + other.at<double>(y, x) * (12 + 24.0 * x / size.width);
+            }
+        }
+        cv::Mat whole_bytes, other_bytes;
+        whole.convertTo(whole_bytes, CV_8U, 1, 128);
+        other.convertTo(other_bytes, CV_8U, 1, 128);
+        const int columns = std::max(2, size.width / 8), rows = std::max(2, size.height / 8);
+        const auto partOf = [&](const cv::Mat& picture, int column, int row) {
+            std::vector<double> values;
+            for (int y = size.height * row / rows; y < size.height * (row + 1) / rows; ++y)
+                for (int x = size.width * column / columns; x < size.width * (column + 1) / columns; ++x)
+                    values.push_back(picture.at<unsigned char>(y, x));
+            return values;
+        };
+        const auto scatterOf = [](const std::vector<double>& values) {
+            const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+            return std::accumulate(values.begin(), values.end(), 0.0,
+                                   [&](double sum, double value) { return sum + (value - mean) * (value - mean); });
+        };
+        const double all = scatterOf({whole_bytes.begin<unsigned char>(), whole_bytes.end<unsigned char>()});
+        int parts = 0, alike = 0;
+        for (int row = 0; row < rows; ++row) {
+            for (int column = 0; column < columns; ++column) {
+                const std::vector<double> mine = partOf(other_bytes, column, row),
+                                          its = partOf(whole_bytes, column, row);
+                if (scatterOf(its) * columns * rows < 0.15 * all) continue;
+                ++parts;
+                alike += correlationOf(mine, its) > 0.7;
+            }
+        }
+        const double expected = parts == 0 ? 0 : static_cast<double>(alike) / parts;
+        EXPECT_NEAR(patchOfAll(other_bytes).seenOf(patchOfAll(whole_bytes)), expected, 1e-9) << size;
+        in_part += alike > 0 && alike < parts;
+    }
+    EXPECT_GE(in_part, 100);
 }
 
 TEST(BoxPatch, LearnsByShares) {

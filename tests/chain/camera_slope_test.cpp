@@ -150,6 +150,22 @@ TEST(ScaleSlopeFit, AScaleReadOffVehiclesHoldsWhereTheyAre) {
     EXPECT_EQ(fitSlope(few, kImage, kGsd, flight.slope()).centre(), cv::Point2d(479.5, 269.5));
 }
 
+TEST(ScaleSlopeFit, VehiclesALittleAwayFromTheMiddleSayWhetherAScaleIsItsOrTheirs) {
+    const Flight flight{0.6, {0.002, 0.001}};
+    for (const double y : {179.5, 359.5}) {
+        // A metre covers .8 of what it does in the middle, or 1.2.
+        const double factor = 1 + 0.6 * (y - 269.5) / 270;
+        const auto centreWhere = [&](double gsd_of_vehicles) {
+            std::vector<ScaleVote> votes;
+            votes.reserve(10);
+            for (int i = 0; i < 10; ++i) votes.push_back({cv::Point2d(300 + 40 * i, y), gsd_of_vehicles, 8});
+            return fitSlope(votes, kImage, 0.2, flight.slope()).centre();
+        };
+        EXPECT_EQ(centreWhere(0.2 / factor), cv::Point2d(479.5, 269.5)) << y;
+        EXPECT_EQ(centreWhere(0.2), cv::Point2d(500, y));
+    }
+}
+
 TEST(ScaleSlopeFit, ManyVehiclesOutweighTheCamera) {
     std::vector<ScaleVote> votes;
     votes.reserve(200);

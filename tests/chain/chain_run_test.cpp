@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
+#include <stdexcept>
 
 #include "chain/chain.h"
 #include "core/error.h"
@@ -155,6 +157,34 @@ TEST(ChainRun, anObserverThatFailsEndsTheRun) {
     const RunSummary summary = ChainRun(ChainOptions{}, scale()).run(source, {}, observer, {});
     EXPECT_EQ(summary.outcome, RunOutcome::failed);
     EXPECT_EQ(summary.message, "no space left");
+}
+
+TEST(ChainRun, whateverGoesWrongEndsTheRunAndSaysWhoHasToAct) {
+    test::MovingScene scene;
+    scene.frames = 6;
+    scene.size = {96, 72};
+    const auto runOver = [&](const std::function<void(int)>& trouble) {
+        test::MemorySource source(6, scene.size, [&](int index) {
+            if (index == 4) trouble(index);
+            return scene.draw(index);
+        });
+        Collector collector;
+        const RunSummary summary = ChainRun(ChainOptions{}, scale()).run(source, {}, collector, {});
+        EXPECT_EQ(collector.results.size(), summary.outcome == RunOutcome::failed ? 4U : 6U);
+        EXPECT_EQ(summary.frames_done, static_cast<int>(collector.results.size()));
+        EXPECT_EQ(summary.frames_total, 6);
+        return summary;
+    };
+    EXPECT_EQ(runOver([](int) {}).outcome, RunOutcome::finished);
+    const RunSummary disk = runOver([](int) { throw Error(ErrorKind::output, "no space"); });
+    EXPECT_EQ(disk.error, ErrorKind::output);
+    EXPECT_EQ(disk.message, "no space");
+    const RunSummary memory = runOver([](int) { throw std::bad_alloc(); });
+    EXPECT_EQ(memory.error, ErrorKind::input);
+    EXPECT_EQ(memory.message, "memory: not enough memory; close other programs or use fewer frames");
+    const RunSummary other = runOver([](int) { throw std::runtime_error("out of order"); });
+    EXPECT_EQ(other.error, ErrorKind::internal);
+    EXPECT_EQ(other.message, "out of order");
 }
 
 TEST(ChainRun, refusesARangeOutsideTheVideo) {

@@ -7,6 +7,7 @@
 
 #include "chain/recording/run_recorder.h"
 #include "core/error.h"
+#include "core/utc_time.h"
 #include "io/video/video_writer.h"
 #include "support/live_sender.h"
 #include "support/moving_scene.h"
@@ -177,6 +178,27 @@ TEST_F(LiveRuns, WhatWasLeftOutWhileTheScaleWasLookedForIsToldApart) {
     EXPECT_EQ(load.text(), "100 of 900 frames left out while the scale was looked for");
 }
 
+TEST(LiveWords, EverythingThatWasGivenUpIsTold) {
+    LiveLoad load;
+    load.facts.frames = 900;
+    EXPECT_EQ(load.text(), "");
+    load.facts.skipped = 1;
+    EXPECT_EQ(load.text(), "1 of 900 frames left out, since the chain was behind");
+    load.fewer_corners = 1;
+    load.facts.reconnects = 1;
+    load.facts.longest_gap_s = 3.26;
+    load.facts.ended = "no space";
+    EXPECT_EQ(
+        load.text(),
+        "1 of 900 frames left out, since the chain was behind; 1 of 900 frames with fewer corners; connected again "
+        "1×, longest gap 3.3 s; ended: no space");
+    load.left_out_for_scale = 1;
+    load.fewer_corners = 0;
+    load.facts.reconnects = 0;
+    load.facts.ended.clear();
+    EXPECT_EQ(load.text(), "1 of 900 frames left out while the scale was looked for");
+}
+
 TEST_F(LiveRuns, AtAnyMomentItSaysHowItStands) {
     const test::LiveSender sender(port_, {{film(60), 3, 0.3}});
     LiveRun run(request(1000), {});
@@ -222,11 +244,20 @@ TEST_F(LiveRuns, WhatMayNotBeWrittenIsToldBeforeItWaitsForTheSource) {
 }
 
 TEST(LivePlaces, AreNamedAfterTheTimeAndTheProject) {
-    EXPECT_THAT(timedProjectName().string(), testing::MatchesRegex("live-[0-9]{8}-[0-9]{6}\\.eyrie"));
+    const std::string before = nowUtc(), name = timedProjectName().string(), after = nowUtc();
+    const auto named = [](const std::string& utc) {  // 2026-11-21T08:00:00Z
+        return "live-" + utc.substr(0, 4) + utc.substr(5, 2) + utc.substr(8, 2) + "-" + utc.substr(11, 2) +
+               utc.substr(14, 2) + utc.substr(17, 2) + ".eyrie";
+    };
+    EXPECT_GE(name, named(before));
+    EXPECT_LE(name, named(after));
     const test::TemporaryFolder folder;
     EXPECT_EQ(recordingFor(folder / "a.eyrie"), folder / "a.ts");
     std::ofstream(folder / "a.ts") << "earlier";
     EXPECT_EQ(recordingFor(folder / "a.eyrie"), folder / "a-2.ts");
+    std::ofstream(folder / "a-2.ts") << "earlier";
+    EXPECT_EQ(recordingFor(folder / "a.eyrie"), folder / "a-3.ts");
+    EXPECT_TRUE(recordingFor("a.eyrie").is_absolute());
     EXPECT_EQ(remarkOnRecording(10, 10), "");
     EXPECT_THAT(remarkOnRecording(9, 10), testing::HasSubstr("shows 9 frames, the run has 10"));
 }

@@ -1,8 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
+
 #include "chain/chain.h"
+#include "chain/scale/look_progress.h"
 #include "chain/scale/scale_trial.h"
 #include "chain/scale/slope_estimation.h"
+#include "chain/scale/view_estimation.h"
 #include "core/robust_statistics.h"
 #include "support/moving_scene.h"
 
@@ -25,6 +30,28 @@ std::pair<std::size_t, int> looksForASlope(int frames, FrameRange range = {}) {
     estimateSlope(source, range, ChainOptions{}, SceneScale{0.2, 25, true}, {},
                   [&](const RunProgress& progress) { told.push_back(progress); });
     return {told.size(), told.empty() ? 0 : told.front().frames_total};
+}
+
+/// Grey pictures, which cost next to nothing; from one on they cannot be read. Keeps which were asked for.
+struct GreySource : test::MemorySource {
+    explicit GreySource(int frames, int broken_from = 1000)
+        : MemorySource(frames, {64, 48}, [](int) { return cv::Mat(48, 64, CV_8UC1, cv::Scalar(90)); }),
+          broken(broken_from) {}
+    Frame read(FrameIndex index, bool with_colour) override {
+        if (index >= broken) throw Error(ErrorKind::input, "broken");
+        asked_for.push_back(index);
+        return MemorySource::read(index, with_colour);
+    }
+    int broken;
+    std::vector<FrameIndex> asked_for;
+};
+
+/// The frames from one to another and from one to another …
+std::vector<FrameIndex> framesOf(const std::vector<std::pair<int, int>>& stretches) {
+    std::vector<FrameIndex> frames;
+    for (const auto& [first, last] : stretches)
+        for (int frame = first; frame <= last; ++frame) frames.push_back(frame);
+    return frames;
 }
 
 /// Says its scale itself, as a rendered scene does.
@@ -73,6 +100,69 @@ TEST(ScaleLooks, ForASlopeTakeTheStartTheMiddleAndTheEndOfAVideo) {
     EXPECT_EQ(looksForASlope(68), std::pair(std::size_t{68}, 68)) << "the start and the end";
     EXPECT_EQ(looksForASlope(120), std::pair(std::size_t{102}, 102));
     EXPECT_EQ(looksForASlope(60, {10, 49}), std::pair(std::size_t{34}, 40));
+}
+
+TEST(ScaleLooks, ForAViewTakeFortyFramesOfTheStartTheMiddleAndTheEnd) {
+    const auto looks = [](int frames, FrameRange range, const std::vector<std::pair<int, int>>& stretches,
+                          int broken = 1000) {
+        GreySource source(frames, broken);
+        int told = 0, total = 0;
+        EXPECT_FALSE(estimateView(source, range, {}, 25, {}, [&](const RunProgress& progress) {
+            ++told;
+            total = progress.frames_total;
+        }));
+        EXPECT_EQ(source.asked_for, framesOf(stretches)) << frames;
+        EXPECT_EQ(told, static_cast<int>(source.asked_for.size()));
+        EXPECT_EQ(total == told, broken >= frames) << frames;
+    };
+    looks(30, {}, {{0, 29}});
+    looks(41, {}, {{0, 40}});
+    looks(120, {}, {{0, 119}});
+    looks(121, {}, {{0, 79}, {81, 120}});
+    looks(122, {}, {{0, 39}, {41, 80}, {82, 121}});
+    looks(140, {}, {{0, 39}, {50, 89}, {100, 139}});
+    looks(160, {10, 149}, {{10, 49}, {60, 99}, {110, 149}});
+    looks(140, {}, {{0, 39}, {50, 59}}, 60);
+}
+
+TEST(ScaleLooks, ForTheTrafficGoOnInTheMiddleAndAtTheEndWhereNothingDrivesAtFirst) {
+    const auto looks = [](int frames, FrameRange range, const std::vector<std::pair<int, int>>& stretches) {
+        GreySource source(frames);
+        ChainOptions options;
+        options.view.oblique = false;
+        std::vector<RunProgress> told;
+        const ChosenScale chosen =
+            chooseScale(source, range, options, {}, {}, [&](const RunProgress& progress) { told.push_back(progress); });
+        EXPECT_EQ(chosen.basis.origin, ScaleOrigin::assumed);
+        EXPECT_EQ(source.asked_for, framesOf(stretches)) << frames;
+        EXPECT_EQ(told.size(), kScaleAssumptions * source.asked_for.size());
+        EXPECT_EQ(told.front().frames_total, kScaleAssumptions * (stretches[0].second - stretches[0].first + 1));
+    };
+    looks(30, {}, {{0, 29}});
+    looks(79, {}, {{0, 39}});  // nothing is looked at twice
+    looks(80, {}, {{0, 39}, {40, 79}});
+    looks(140, {}, {{0, 39}, {50, 89}, {100, 139}});
+    looks(160, {10, 149}, {{10, 49}, {60, 99}, {110, 149}});
+}
+
+TEST(ScaleLooks, TellHowFastTheyAre) {
+    const auto begin = std::chrono::steady_clock::now();
+    int told = 0;
+    const ScaleProgress listener = [&](const RunProgress& progress) {
+        const double passed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        EXPECT_TRUE(progress.estimating_scale);
+        EXPECT_EQ(progress.frames_total, 10);
+        EXPECT_EQ(progress.frames_done, ++told);
+        EXPECT_NEAR(progress.frames_per_second * passed, told, 0.3);
+        EXPECT_NEAR(progress.seconds_left * progress.frames_per_second, 10 - told, 1e-6);
+    };
+    LookProgress progress(listener, 10);
+    for (int i = 0; i < 3; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        progress.step();
+    }
+    EXPECT_EQ(told, 3);
+    LookProgress({}, 10).step();
 }
 
 TEST(ScaleLooks, CountWhatTheChainFindsAndTracksThatHaveSettled) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "chain/scale/scale_outcomes.h"
+#include "chain/scale/view_estimation.h"
 
 /// Which scale outcomes tell, worked out by hand.
 namespace eyrie::scale_outcomes_by_hand_test {
@@ -46,6 +47,12 @@ TEST(ScaleOutcomes, ACarIsNeitherShorterNorWiderThanCarsAre) {
     EXPECT_TRUE(isCarSized(6.59, 3.79));
     for (const auto& [length, width] : {std::pair(3.6, 2.0), {6.6, 2.0}, {5.0, 1.5}, {5.0, 3.8}})
         EXPECT_FALSE(isCarSized(length, width)) << length << " x " << width;
+}
+
+TEST(ScaleOutcomes, AViewIsAsSureAsTheLengthsOfWhatDrivesThere) {
+    EXPECT_NEAR(uncertaintyOfView(1), std::exp(1.645 * std::sqrt(0.0121 + 0.0225)), 1e-12);
+    EXPECT_NEAR(uncertaintyOfView(4), std::exp(1.645 * std::sqrt(0.0121 + 0.0225 / 4)), 1e-12);
+    EXPECT_EQ(uncertaintyOfView(0), uncertaintyOfView(1));
 }
 
 TEST(ScaleOutcomes, OneAssumptionAloneIsTheScale) {

@@ -107,6 +107,28 @@ TEST(CornerWeights, whenMostSeemToMoveTheGroundWasMistaken) {
     EXPECT_EQ(std::count(half.weight.begin(), half.weight.end(), 0.0F), 2) << "only those that were lost";
 }
 
+TEST(CornerWeights, whereSpecksOnTheLensMakeTheGroundSeemToMoveItIsBelieved) {
+    // Of a camera that hovers: specks do not move at all, and of the ground no more than half is as calm.
+    const auto leftOut = [](int calm, int young) {
+        PlacedCorners corners;
+        for (int i = 0; i < 24; ++i) {
+            TrackedCorner& corner = corners.add(10 + 12 * float(i), 100);
+            corner.age = 9;
+            corner.sticks = i < 14;
+            corner.drift = {i < 14 + calm ? 0.0F : 0.2F, 0};
+            if (i >= 24 - young) corner.age = 3;
+        }
+        const Correspondences pairs = corners.pairs();
+        for (std::size_t i = 0; i < 14; ++i) EXPECT_EQ(pairs.weight[i], 0) << i;
+        return std::count(pairs.weight.begin() + 14, pairs.weight.end(), 0.0F);
+    };
+    EXPECT_EQ(leftOut(3, 0), 0);
+    EXPECT_EQ(leftOut(5, 0), 0) << "half";
+    EXPECT_EQ(leftOut(6, 0), 4);
+    EXPECT_EQ(leftOut(5, 1), 4) << "of what is too young nobody knows that it moves";
+    EXPECT_EQ(leftOut(2, 3), 0);
+}
+
 TEST(CornerWeights, whatSticksToThePictureSaysNothingAndCrowdsNobody) {
     // Three that stick and one beside them in a cell, four in another, three alone.
     PlacedCorners corners;

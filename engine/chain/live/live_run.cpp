@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "chain/live/chain_pace.h"
 #include "chain/live/read_ahead.h"
 #include "chain/recording/chain_state.h"
 #include "chain/recording/run_recorder.h"
@@ -23,10 +24,7 @@
 namespace eyrie {
 namespace {
 
-constexpr double kBehind = 0.5;      ///< share of the waiting frames from which fewer corners are taken
-constexpr double kInPace = 0.1;      ///< and below which the chain keeps pace again …
-constexpr double kPaceBefore_s = 2;  ///< … for so long, before all corners are taken again; twice as long every time
-constexpr double kFewer = 1.5;       ///< by which corners lie farther apart: less than half of them
+constexpr double kFewer = 1.5;  ///< by which corners lie farther apart: less than half of them
 
 /// A live source whose reader, the first half of the chain, is made lighter while it is behind. Reading happens on the
 /// thread of that half, so that it may be exchanged between two frames.
@@ -46,13 +44,8 @@ class LighterReading : public FrameSource {
     const VideoInfo& info() const override { return stream_.info(); }
     std::int64_t timeOf(FrameIndex index) const override { return stream_.timeOf(index); }
     Frame read(FrameIndex index, bool with_colour) override {
-        const double backlog = stream_.backlog();
-        if (!lighter_ && backlog > kBehind) exchange(true);
-        if (backlog > kInPace) in_pace_ = 0;
-        if (lighter_ && ++in_pace_ > kPaceBefore_s * patience_ * info().frame_rate_hz) {
-            exchange(false);
-            patience_ *= 2;
-        }
+        const bool lighter = pace_.isLighter(stream_.backlog());
+        if (lighter != lighter_) exchange(lighter);
         Frame frame = ahead_.read(index, with_colour);
         ++frames_read_;
         if (lighter_) ++fewer_corners_;
@@ -68,7 +61,6 @@ class LighterReading : public FrameSource {
     /// The new half knows the last picture, so that the next one is registered onto it.
     void exchange(bool lighter) {
         lighter_ = lighter;
-        in_pace_ = 0;
         MotionHalf half(lighter ? withFewerCorners(options_) : options_, scale_);
         StageTimes times{};
         if (!last_.gray.empty()) half.next(last_, times);
@@ -81,9 +73,8 @@ class LighterReading : public FrameSource {
     SceneScale scale_;
     std::shared_ptr<ChainProgress> progress_;
     Frame last_;
+    ChainPace pace_{stream_.info().frame_rate_hz};
     std::atomic<bool> lighter_{false};
-    double in_pace_ = 0;
-    double patience_ = 1;
     std::atomic<int> fewer_corners_{0};
     std::atomic<int> frames_read_{0};
 };

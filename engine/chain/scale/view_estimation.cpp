@@ -85,6 +85,11 @@ VotesOfView votesOf(FrameSource& source, std::vector<Stretch>& stretches, const 
 
 }  // namespace
 
+double uncertaintyOfView(std::size_t vehicles_at_once) {
+    const auto vehicles = static_cast<double>(std::max<std::size_t>(vehicles_at_once, 1));
+    return std::exp(kNineOfTen * std::hypot(kErrorOfLook, kErrorOfLength / std::sqrt(vehicles)));
+}
+
 std::optional<EstimatedView> estimateView(FrameSource& source, FrameRange range, const ChainOptions& options,
                                           double frame_rate_hz, const std::stop_token& stop,
                                           const ScaleProgress& told) {
@@ -115,12 +120,11 @@ std::optional<EstimatedView> estimateView(FrameSource& source, FrameRange range,
         fit = view;
     }
     if (stop.stop_requested() || !fit) return std::nullopt;
-    // One vehicle may vote by several of its parts, and one be a track in each stretch.
-    const double vehicles = std::max(1.0, std::min(static_cast<double>(given.at_once), found.cars));
-    const double variance = kErrorOfLook * kErrorOfLook + kErrorOfLength * kErrorOfLength / vehicles;
+    // One vehicle may vote by several of its parts.
+    const std::size_t vehicles = std::min(given.at_once, static_cast<std::size_t>(std::max(found.cars, 1.0)));
     EstimatedView view;
     view.middle.gsd_m_per_px = fit->gsd_m_per_px;
-    view.middle.uncertainty = std::exp(kNineOfTen * std::sqrt(variance));
+    view.middle.uncertainty = uncertaintyOfView(vehicles);
     view.middle.vehicles = static_cast<int>(found.cars);
     view.slope = fit->slope;
     return view;

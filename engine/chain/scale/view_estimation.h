@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <stop_token>
 
@@ -12,6 +13,9 @@ struct EstimatedView {
     ScaleEstimate middle;
     ScaleSlope slope;
 };
+
+/// ScaleEstimate::uncertainty of a view that was read off so many vehicles at once, of which nobody knows the lengths.
+double uncertaintyOfView(std::size_t vehicles_at_once);
 
 /// Scale and slope of a view in which no scale shows traffic, for a vehicle that comes nearer changes its size all the
 /// time. What moves, and the camera's way, is looked at in the beginning, the middle and the end, and what fits most of
