@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <functional>
 #include <limits>
@@ -81,17 +82,26 @@ void follow(int frame, FrameResult& result, const OrientedBox& box, TrackStatus 
 
 /// Pictures by their number; slow, or not there at all.
 struct Pictures : test::MemorySource {
-    Pictures() : MemorySource(40, {16, 16}, [](int i) { return cv::Mat(16, 16, CV_8UC1, cv::Scalar(i)); }) {}
+    explicit Pictures(bool is_folder = false)
+        : MemorySource(40, {16, 16}, [](int i) { return cv::Mat(16, 16, CV_8UC1, cv::Scalar(i)); }),
+          described(MemorySource::info()) {
+        described.is_image_sequence = is_folder;
+    }
+    const VideoInfo& info() const override { return described; }
     Frame read(FrameIndex index, bool with_colour) override {
         EXPECT_FALSE(with_colour);
+        EXPECT_FALSE(at_work.exchange(true)) << "one at a time";
         std::this_thread::sleep_for(takes);
+        at_work = false;
         if (index == missing) throw Error(ErrorKind::input, "gone");
-        ++reads;
+        read_frames.push_back(index);
         return MemorySource::read(index, with_colour);
     }
     std::chrono::milliseconds takes{0};
     FrameIndex missing = -1;
-    int reads = 0;
+    VideoInfo described;
+    std::atomic<bool> at_work{false};
+    std::vector<FrameIndex> read_frames;
 };
 
 int greyOf(const cv::Mat& picture) {
@@ -305,7 +315,8 @@ TEST(PicturesOnceMore, AreThoseThatAreHeldAndElseReadAgain) {
     EXPECT_TRUE(again(14).empty());
     EXPECT_TRUE(again(14).empty());
     EXPECT_EQ(again.lost(), 2);
-    EXPECT_EQ(source.reads, 2);
+    const std::vector<FrameIndex> read{10, 11, 13};  // 11 in vain
+    EXPECT_EQ(source.read_frames, read);
     EXPECT_FALSE(again.stopped());
     stop.request_stop();
     EXPECT_FALSE(again.stopped()) << "nothing was refused yet";
@@ -313,7 +324,40 @@ TEST(PicturesOnceMore, AreThoseThatAreHeldAndElseReadAgain) {
     EXPECT_TRUE(again(15).empty());
     EXPECT_TRUE(again.stopped());
     EXPECT_EQ(again.lost(), 2) << "refused, not lost";
-    EXPECT_EQ(source.reads, 2);
+    EXPECT_EQ(source.read_frames, read);
+}
+
+TEST(PicturesOnceMore, ReadTheOneThatProbablyComesNextWhileOneIsWorkedOn) {
+    const auto readFor = [](const std::vector<FrameIndex>& frames, bool is_folder) {
+        Pictures source(is_folder);
+        const RunPictures none;
+        {
+            PicturesOnceMore again(none, source, 10, 19, nullptr, {});
+            for (const FrameIndex frame : frames) EXPECT_EQ(greyOf(again(frame)), frame);
+            EXPECT_EQ(again.lost(), 0);
+        }
+        return source.read_frames;
+    };
+    using Frames = std::vector<FrameIndex>;
+    EXPECT_EQ(readFor({10, 11, 12}, false), (Frames{10, 11, 12, 13}));
+    EXPECT_EQ(readFor({10, 12, 14}, false), (Frames{10, 11, 12, 13, 14, 15})) << "a video is read in one go";
+    EXPECT_EQ(readFor({10, 13, 16}, true), (Frames{10, 11, 13, 16, 19})) << "of a folder as far on as before";
+    EXPECT_EQ(readFor({10, 13, 14}, true), (Frames{10, 11, 13, 16, 14, 15}));
+    EXPECT_EQ(readFor({18, 19}, false), (Frames{18, 19})) << "there is none after the last";
+    // What is missing is lost only where it is asked for.
+    Pictures source;
+    source.missing = 11;
+    const RunPictures none;
+    {
+        PicturesOnceMore again(none, source, 10, 19, nullptr, {});
+        EXPECT_EQ(greyOf(again(10)), 10);
+        EXPECT_EQ(greyOf(again(12)), 12);
+        EXPECT_EQ(again.lost(), 0);
+    }
+    PicturesOnceMore asked(none, source, 10, 19, nullptr, {});
+    EXPECT_EQ(greyOf(asked(10)), 10);
+    EXPECT_TRUE(asked(11).empty());
+    EXPECT_EQ(asked.lost(), 1);
 }
 
 TEST(PicturesOnceMore, TellNowAndThenHowFarTheyAre) {

@@ -36,7 +36,7 @@ cv::Mat RunPictures::at(FrameIndex frame) const {
 
 PicturesOnceMore::PicturesOnceMore(const RunPictures& held, FrameSource& source, FrameIndex first, FrameIndex last,
                                    ChainObserver* told, std::stop_token stop)
-    : held_(held), source_(source), first_(first), told_(told), stop_(std::move(stop)) {
+    : held_(held), source_(source), first_(first), last_(last), told_(told), stop_(std::move(stop)) {
     progress_.frames_total = last - first + 1;
     progress_.finishing = true;
 }
@@ -49,11 +49,31 @@ cv::Mat PicturesOnceMore::operator()(FrameIndex frame) {
     cv::Mat held = held_.at(frame);
     if (!held.empty()) return held;
     try {
-        return source_.read(frame, false).gray;
+        cv::Mat picture = read(frame);
+        readAhead(frame);
+        return picture;
     } catch (const std::exception&) {
         ++lost_;
         return {};
     }
+}
+
+cv::Mat PicturesOnceMore::read(FrameIndex frame) {
+    if (ahead_.valid()) {
+        ahead_.wait();  // the source does one thing at a time
+        if (coming_ == frame) return ahead_.get();
+        ahead_ = {};
+    }
+    return source_.read(frame, false).gray;
+}
+
+void PicturesOnceMore::readAhead(FrameIndex frame) {
+    // Of a video nothing may be left out, or it would have to go back; of a folder a picture too many is read in vain.
+    const bool steps = source_.info().is_image_sequence && read_last_ && frame > *read_last_;
+    coming_ = frame + (steps ? frame - *read_last_ : 1);
+    read_last_ = frame;
+    if (coming_ > last_ || !held_.at(coming_).empty()) return;
+    ahead_ = std::async(std::launch::async, [this, next = coming_] { return source_.read(next, false).gray; });
 }
 
 void PicturesOnceMore::tell(FrameIndex frame) {

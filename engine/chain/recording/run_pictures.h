@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <future>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <stop_token>
@@ -14,7 +15,7 @@ namespace eyrie {
 /// video need not be decoded once more to finish its tracks.
 class RunPictures {
  public:
-    static constexpr std::size_t kMostBytes = 200'000'000;
+    static constexpr std::size_t kMostBytes = 256'000'000;
 
     RunPictures() = default;  ///< holds none
     /// Holds those of a range; an end that is not known yet is too far.
@@ -31,11 +32,12 @@ class RunPictures {
 };
 
 /// The pictures of a run once more, for finishing, which asks for them in ascending order. Tells how far it is. None
-/// that cannot be read any more, and none from a stop on.
+/// that cannot be read any more, and none from a stop on. While one is worked on, the one that probably comes next is
+/// read.
 class PicturesOnceMore {
  public:
-    /// `held` and `source`, which gives those that are not held, must outlive it; `told`, if given, hears how far it
-    /// is.
+    /// `held` and `source`, which gives those that are not held and is left to it alone, must outlive it; `told`, if
+    /// given, hears how far it is.
     PicturesOnceMore(const RunPictures& held, FrameSource& source, FrameIndex first, FrameIndex last,
                      ChainObserver* told, std::stop_token stop);
 
@@ -49,10 +51,12 @@ class PicturesOnceMore {
     using Clock = std::chrono::steady_clock;
 
     void tell(FrameIndex frame);
+    cv::Mat read(FrameIndex frame);
+    void readAhead(FrameIndex frame);
 
     const RunPictures& held_;
     FrameSource& source_;
-    FrameIndex first_;
+    FrameIndex first_, last_;
     ChainObserver* told_;
     std::stop_token stop_;
     bool stopped_ = false;
@@ -60,6 +64,9 @@ class PicturesOnceMore {
     int lost_ = 0;
     std::optional<Clock::time_point> begun_;  ///< with the first picture
     Clock::time_point last_told_{};
+    std::optional<FrameIndex> read_last_;
+    FrameIndex coming_ = 0;       ///< the frame that is read ahead
+    std::future<cv::Mat> ahead_;  ///< ends before what it uses
 };
 
 }  // namespace eyrie
