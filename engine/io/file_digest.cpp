@@ -59,6 +59,13 @@ std::vector<std::filesystem::path> filesOf(const std::filesystem::path& path) {
     return files;
 }
 
+/// In steps of two seconds: some disks know no finer ones, and a folder may be copied to one.
+std::int64_t writtenAt(const std::filesystem::path& file) {
+    constexpr std::int64_t kStep_s = 2;
+    const auto written = std::filesystem::last_write_time(file).time_since_epoch();
+    return std::chrono::duration_cast<std::chrono::seconds>(written).count() / kStep_s;
+}
+
 }  // namespace
 
 std::string edgeDigestOf(const std::filesystem::path& path) {
@@ -87,9 +94,8 @@ std::string listingDigestOf(const std::filesystem::path& path) {
         Sha256 sum;
         for (const std::filesystem::path& file : files) {
             const std::string name = file.filename().string();
-            const auto written = std::filesystem::last_write_time(file).time_since_epoch();
             const std::string state = std::to_string(std::filesystem::file_size(file)) + " " +
-                                      std::to_string(std::chrono::nanoseconds(written).count());
+                                      (isFolder(path) ? std::to_string(writtenAt(file)) : edgeDigestOf(file));
             sum.add(name.c_str(), name.size() + 1);
             sum.add(state.c_str(), state.size() + 1);
         }

@@ -14,8 +14,9 @@ namespace eyrie {
 std::string sha256Of(const std::filesystem::path& path, const std::function<void(double)>& progress = {},
                      const std::stop_token& stop = {});
 
-/// SHA-256 of how the files lie there that sha256Of() reads, and a list of parts itself: names, sizes and times of
-/// last writing, in their order. Tells at once whether pictures were put in, taken away or replaced, by older ones too.
+/// SHA-256 of how the files lie there that sha256Of() reads, and a list of parts itself: names, sizes and, of pictures
+/// in a folder, times of last writing, else edgeDigestOf(), in their order. Tells at once whether pictures or videos
+/// were put in, taken away or replaced, by older ones too.
 /// Empty for what is no file or folder, or cannot be looked into.
 std::string listingDigestOf(const std::filesystem::path& path);
 

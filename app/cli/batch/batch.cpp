@@ -82,25 +82,37 @@ bool isOfOtherFiles(const BatchInput& input, const RunRecord& run, ProjectFile& 
 /// What a project holds of an input.
 struct Begun {
     RunRecord run;
-    bool of_other_contents = false;  ///< the input has changed since the run began
+    bool has_changed = false;  ///< the input may be another than when the run began
 
     bool isFinished() const { return run.state == RunState::finished; }
 };
 
-/// Takes over what its project says of an input; answers the run, if there is one.
-std::optional<Begun> takeFacts(BatchRow& row, const ResumeWishes& wishes) {
-    if (!isFile(row.project)) return std::nullopt;
-    ProjectFile file = ProjectFile::open(row.project, ProjectFile::Mode::read_only);
-    const RunStore store(file);
-    const std::optional<RunRecord> run = runOf(store, row, wishes);
-    if (!run) return std::nullopt;
-    row.frames = run->frames_done;
-    const RunCounts counts = countRun(file, run->id);
+/// Takes over what a project says of a run.
+void takeFacts(BatchRow& row, ProjectFile& project, const RunRecord& run) {
+    row.frames = run.frames_done;
+    const RunCounts counts = countRun(project, run.id);
     row.unregistered = counts.unregistered;
     row.tracks = counts.tracks;
-    const bool is_finished = run->state == RunState::finished;
-    // One that has not ended looks at the pictures again, and may go on though a file was touched while it began.
-    return Begun{*run, isOfOtherFiles(row.input, *run, file) || (is_finished && isNewer(row.input, *run))};
+}
+
+/// Answers the run of an input, if its project has one, whose facts are in its row then.
+std::optional<Begun> lookedUp(BatchRow& row, const ResumeWishes& wishes) {
+    if (!isFile(row.project)) return std::nullopt;
+    ProjectFile file = ProjectFile::open(row.project, ProjectFile::Mode::read_only);
+    const std::optional<RunRecord> run = runOf(RunStore(file), row, wishes);
+    if (!run) return std::nullopt;
+    takeFacts(row, file, *run);
+    return Begun{*run, isOfOtherFiles(row.input, *run, file) || isNewer(row.input, *run)};
+}
+
+/// The same of one that was just worked on: what its run says where it is finished, nothing else.
+std::optional<std::string> messageOfFinished(BatchRow& row, const ResumeWishes& wishes) {
+    if (!isFile(row.project)) return std::nullopt;
+    ProjectFile file = ProjectFile::open(row.project, ProjectFile::Mode::read_only);
+    const std::optional<RunRecord> run = runOf(RunStore(file), row, wishes);
+    if (!run) return std::nullopt;
+    takeFacts(row, file, *run);
+    return run->state == RunState::finished ? std::optional(run->message) : std::nullopt;
 }
 
 bool isOver(BatchState state) {
@@ -188,11 +200,11 @@ void Batch::begin(std::size_t number) {
     BatchRow& row = rows_[number];
     if (!row.input.fault.empty()) return close(number, BatchState::failed, row.input.fault);
     try {
-        const auto begun = row.anew ? std::nullopt : takeFacts(row, options_.wishes);
-        if (begun && begun->isFinished() && !begun->of_other_contents)
-            return close(number, BatchState::done_before, "");
-        // One that another program writes is left to it, whatever has changed.
-        row.anew = row.anew || (begun && begun->of_other_contents && !begun->run.live);
+        const auto begun = row.anew ? std::nullopt : lookedUp(row, options_.wishes);
+        if (begun && begun->isFinished() && !begun->has_changed) return close(number, BatchState::done_before, "");
+        row.anew = row.anew || (begun && begun->isFinished());
+        // Whoever goes on looks at the pictures again. One that another program writes is left to it.
+        row.may_differ = begun && !begun->isFinished() && begun->has_changed && !begun->run.live;
     } catch (const Error& error) {
         return close(number, BatchState::failed, error.what());
     }
@@ -223,9 +235,9 @@ void Batch::end(std::size_t number, const ChildEnd& how) {
     std::string fault = "ended without a finished run; perhaps somebody else works on its project";
     std::string remark;
     try {
-        if (const auto begun = takeFacts(row, options_.wishes); begun && begun->isFinished()) {
+        if (const auto message = messageOfFinished(row, options_.wishes)) {
             fault.clear();
-            remark = begun->run.message;
+            remark = *message;
         }
     } catch (const Error& error) {
         fault = error.what();
@@ -233,6 +245,10 @@ void Batch::end(std::size_t number, const ChildEnd& how) {
     // Who ends a job tells all its processes at once, and this one may hear of it last.
     if (how.exit_code == exit_stopped || how.signal == SIGTERM) return close(number, BatchState::stopped, "");
     if (how.signal != 0) return close(number, BatchState::failed, signalText(how.signal));
+    if (how.exit_code != exit_ok && std::exchange(row.may_differ, false)) {
+        row.anew = true;
+        return begin(number);
+    }
     if (how.exit_code != exit_ok) return close(number, BatchState::failed, how.lastWords());
     close(number, fault.empty() ? BatchState::done : BatchState::failed, fault.empty() ? remark : fault);
 }

@@ -24,7 +24,8 @@ const char* nameOf(BatchState state);
 struct BatchRow {
     BatchInput input;
     std::filesystem::path project;
-    bool anew = false;  ///< a file that was worked on before has other contents now
+    bool anew = false;        ///< a file that was worked on before has other contents now
+    bool may_differ = false;  ///< it may, and is begun anew if its unfinished run cannot be gone on with
     BatchState state = BatchState::waiting;
     std::string message;  ///< why it failed or stopped; of a finished one what else its run says
     double seconds = 0;   ///< that it took in this batch

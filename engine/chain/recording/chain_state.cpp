@@ -72,9 +72,13 @@ Unpacked unpacked(std::string_view bytes, const ChainOptions& options, const Sce
 /// " (frame7.png)" for a picture of a folder, which may have been replaced or renamed.
 std::string pictureName(const VideoInfo& video, FrameIndex frame) {
     if (!video.is_image_sequence || !isFolder(video.path)) return "";
-    const std::vector<std::filesystem::path> pictures = imagesIn(video.path);
-    const auto at = static_cast<std::size_t>(frame);
-    return at < pictures.size() ? " (" + pictures[at].filename().string() + ")" : "";
+    try {
+        const std::vector<std::filesystem::path> pictures = imagesIn(video.path);
+        const auto at = static_cast<std::size_t>(frame);
+        return at < pictures.size() ? " (" + pictures[at].filename().string() + ")" : "";
+    } catch (const Error&) {
+        return "";  // they went meanwhile
+    }
 }
 
 template <class Stage>

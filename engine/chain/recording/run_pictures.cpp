@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <system_error>
 #include <utility>
 
 #include "io/video/frame_source.h"
@@ -73,7 +74,11 @@ void PicturesOnceMore::readAhead(FrameIndex frame) {
     coming_ = frame + (steps ? frame - *read_last_ : 1);
     read_last_ = frame;
     if (coming_ > last_ || !held_.at(coming_).empty()) return;
-    ahead_ = std::async(std::launch::async, [this, next = coming_] { return source_.read(next, false).gray; });
+    try {
+        ahead_ = std::async(std::launch::async, [this, next = coming_] { return source_.read(next, false).gray; });
+    } catch (const std::system_error&) {
+        // No thread is to be had: it is read when it is asked for.
+    }
 }
 
 void PicturesOnceMore::tell(FrameIndex frame) {

@@ -7,7 +7,9 @@
 #include "chain/recording/classified_vehicles.h"
 #include "core/error.h"
 #include "io/file_digest.h"
+#include "io/folder.h"
 #include "io/video/frame_source.h"
+#include "io/video/image_sequence.h"
 #include "store/project/project_file.h"
 #include "store/runs/run_state_store.h"
 #include "store/runs/source_digest.h"
@@ -29,6 +31,17 @@ std::vector<std::pair<std::string, std::string>> storedParameters(const ChainOpt
     return values;
 }
 
+/// Whether a folder holds as many pictures as when it was opened; of others it is so. Where one came or went meanwhile
+/// their number tells later what no digest of now could.
+bool holdsItsPictures(const SequenceRecord& video) {
+    if (!isFolder(video.path)) return true;
+    try {
+        return imagesIn(video.path).size() == static_cast<std::size_t>(video.frame_count);
+    } catch (const Error&) {
+        return false;
+    }
+}
+
 }  // namespace
 
 RunRecorder::RunRecorder(const std::filesystem::path& project, RunRecord run, const ChainOptions& options,
@@ -43,7 +56,8 @@ RunRecorder::RunRecorder(const std::filesystem::path& project, RunRecord run, co
     const RunRecord begun = RunStore(file).run(runId()).value();
     // What comes live is no file yet, or one that grows.
     const bool is_live = begun.last_frame < begun.first_frame;
-    if (!is_live) storeSourceDigest(file, runId(), listingDigestOf(begun.sequence.path));
+    if (!is_live && holdsItsPictures(begun.sequence))
+        storeSourceDigest(file, runId(), listingDigestOf(begun.sequence.path));
 }
 
 RunRecorder::RunRecorder(const std::filesystem::path& project, const ResumedRun& resumed, ChainObserver* also)

@@ -142,15 +142,17 @@ void FinishingOptions::describe(ParameterVisitor& v) {
         "finishing.drop_shadows", drop_shadows,
         {"",
          "Tracks that drive beside a vehicle as if fixed to it and were detected less than half as often are its "
-         "shadow and are dropped.",
+         "shadow and are dropped; such as touch it, and with finishing.trim_shadows also such as lie farther off where "
+         "shadows fall.",
          ""});
-    declare.flag(
-        "finishing.trim_shadows", trim_shadows,
-        {"",
-         "Take the shadow out of the boxes of sure tracks where the vehicles show which way shadows fall, and at night "
-         "what their headlights light ahead of them. Needs "
-         "a method with a classifier.",
-         ""});
+    declare.flag("finishing.trim_shadows", trim_shadows,
+                 {"",
+                  "Take the shadow out of the boxes of sure tracks where the vehicles show which way shadows fall, and "
+                  "what their "
+                  "headlights light ahead of them where no shadows fall and a quarter of the tracks have them on. "
+                  "Needs a method "
+                  "with a classifier.",
+                  ""});
     declare.real(
         "finishing.min_detected", min_detected, 0, 1,
         {"",

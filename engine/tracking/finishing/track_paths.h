@@ -68,12 +68,12 @@ void dropSharers(std::vector<TrackPath>& paths, double max_sharing, const SceneS
 
 /// Whether a track drives beside a vehicle as if fixed to it, its long side no more than `gap_m` (m) off, and was
 /// detected less than half as often.
-bool drivesAsShadowOf(const TrackPath& vehicle, const TrackPath& shadow, const SceneScale& scale, double gap_m);
+bool drivesAsShadowOf(const TrackPath& shadow, const TrackPath& vehicle, const SceneScale& scale, double gap_m);
 
 /// Whether the first is a shadow, or a side, of the second.
 using IsShadow = std::function<bool(const TrackPath& shadow, const TrackPath& vehicle)>;
 
-/// Drops all tracks that are so of another.
+/// Drops every track that is a shadow of another. What lay beside it is told to lie beside that other.
 void dropShadows(std::vector<TrackPath>& paths, const IsShadow& is_shadow, DropList& dropped);
 /// The same of those that touch the vehicle they drive beside, whatever they look like.
 void dropShadows(std::vector<TrackPath>& paths, const SceneScale& scale, DropList& dropped);

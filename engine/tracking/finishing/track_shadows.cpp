@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/robust_statistics.h"
 #include "tracking/finishing/shared_frames.h"
@@ -42,7 +43,7 @@ Beside besideOf(const TrackPath& vehicle, const TrackPath& other) {
 
 }  // namespace
 
-bool drivesAsShadowOf(const TrackPath& vehicle, const TrackPath& shadow, const SceneScale& everywhere, double gap_m) {
+bool drivesAsShadowOf(const TrackPath& shadow, const TrackPath& vehicle, const SceneScale& everywhere, double gap_m) {
     const double seen = kDetected * vehicle.statesOf(StateOrigin::detected);
     if (shadow.statesOf(StateOrigin::detected) >= seen) return false;
     const Beside beside = besideOf(vehicle, shadow);
@@ -73,13 +74,22 @@ void dropShadows(std::vector<TrackPath>& paths, const IsShadow& is_shadow, DropL
         if (vehicle != 0) drop(path, TrackDrop::shadow, dropped, vehicle);
         return vehicle != 0;
     });
+    std::map<TrackId, TrackId> beside;
+    for (const DroppedPath& each : dropped) {
+        if (each.why == TrackDrop::shadow) beside[each.path.id] = each.beside;
+    }
+    // A shadow was seen less often than its vehicle, so that this ends.
+    for (DroppedPath& each : dropped) {
+        for (auto of = beside.find(each.beside); of != beside.end(); of = beside.find(each.beside))
+            each.beside = of->second;
+    }
 }
 
 void dropShadows(std::vector<TrackPath>& paths, const SceneScale& scale, DropList& dropped) {
     dropShadows(
         paths,
         [&](const TrackPath& shadow, const TrackPath& vehicle) {
-            return drivesAsShadowOf(vehicle, shadow, scale, kGap);
+            return drivesAsShadowOf(shadow, vehicle, scale, kGap);
         },
         dropped);
 }

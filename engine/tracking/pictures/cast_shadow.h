@@ -29,8 +29,8 @@ const CastShadow* shadowIn(const std::vector<CastShadow>& shadows, FrameIndex st
 cv::Point2d reachAt(const CastShadow& shadow, const GroundTurns::Turn& turn, cv::Point2d place,
                     const SceneScale& scale);
 
-/// Drops tracks that are nothing but the shadow of another: shaded, and driving as if fixed to it where shadows fall,
-/// as far away as those of lorries reach.
+/// Drops tracks that are nothing but the shadow of another: shaded, and driving beside it as if fixed to it where
+/// shadows fall, no farther off than those of lorries reach.
 void dropShadowTracks(std::vector<TrackPath>& paths, const std::vector<SilhouetteLook>& looks,
                       const std::vector<CastShadow>& shadows, const GroundTurns& turns, const SceneScale& scale,
                       DropList& dropped);

@@ -82,7 +82,7 @@ void finishByPictures(FinishedTracks& finished, const GroundMotion& ground, cons
     const std::vector<CastShadow> shadows = castShadows(looks, turns, scale);
     if (options.drop_shadows) dropShadowTracks(paths, looks, shadows, turns, scale, finished.dropped);
     takeOutShadows(paths, looks, shadows, turns, scale);
-    // Headlights light nothing where the sun casts shadows.
+    // Where the sun casts shadows headlights light nothing, and what seems to be lit ahead is a bright vehicle.
     if (shadows.empty()) takeOutBeams(paths, looks);
 }
 

@@ -1,6 +1,6 @@
-#include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "core/robust_statistics.h"
 #include "tracking/pictures/cast_shadow.h"
@@ -12,12 +12,13 @@ constexpr double kTallest = 2.5;    ///< times as far as those of most vehicles 
 constexpr double kSameWay = 0.9;    ///< cosine between where it lies and where shadows fall
 constexpr double kShadedBox = 0.3;  ///< share of its box, at least
 
-/// How far the shadows of most vehicles reach at most, m.
-double longestOf(const std::vector<CastShadow>& shadows) {
-    double longest = 0;
-    for (const CastShadow& shadow : shadows)
-        longest = std::max(longest, std::hypot(shadow.reach_m.x, shadow.reach_m.y));
-    return longest;
+/// How far the shadows of most vehicles reach in the middle of a track's life, m; nothing where that is not known.
+std::optional<double> reachDuring(const TrackPath& track, const std::vector<CastShadow>& shadows,
+                                  const GroundTurns& turns) {
+    const FrameIndex middle = track.states[track.states.size() / 2].first;
+    const CastShadow* shadow = shadowIn(shadows, turns.at(middle).stretch);
+    if (shadow == nullptr) return std::nullopt;
+    return std::hypot(shadow->reach_m.x, shadow->reach_m.y);
 }
 
 /// By track: the usual share of its box that is shaded.
@@ -51,12 +52,12 @@ void dropShadowTracks(std::vector<TrackPath>& paths, const std::vector<Silhouett
                       const std::vector<CastShadow>& shadows, const GroundTurns& turns, const SceneScale& scale,
                       DropList& dropped) {
     if (shadows.empty()) return;
-    const double farthest = kTallest * longestOf(shadows);
     const std::map<TrackId, double> shaded = usuallyShaded(looks);
     const auto is_shadow = [&](const TrackPath& track, const TrackPath& vehicle) {
         const auto share = shaded.find(track.id);
-        return share != shaded.end() && share->second >= kShadedBox &&
-               drivesAsShadowOf(vehicle, track, scale, farthest) &&
+        if (share == shaded.end() || share->second < kShadedBox) return false;
+        const std::optional<double> reach = reachDuring(track, shadows, turns);
+        return reach && drivesAsShadowOf(track, vehicle, scale, kTallest * *reach) &&
                liesWhereShadowsFall(track, vehicle, shadows, turns, scale);
     };
     dropShadows(paths, is_shadow, dropped);

@@ -89,6 +89,15 @@ TEST(ShadowTracks, WhatLiesWhereTheShadowOfALorryFallsIsLeftOut) {
     EXPECT_EQ(convoy.dropped[0].beside, 1);
 }
 
+TEST(ShadowTracks, WhatLayBesideAShadowLiesBesideItsVehicle) {
+    Convoy convoy = lorryAndShadow();
+    convoy.dropped = {{TrackPath{8, {}}, TrackDrop::shares_place, 2}, {TrackPath{9, {}}, TrackDrop::shadow, 8}};
+    EXPECT_EQ(convoy.left(kRight), Tracks{1});
+    ASSERT_EQ(convoy.dropped.size(), 3U);
+    EXPECT_EQ(convoy.dropped[0].beside, 1);
+    EXPECT_EQ(convoy.dropped[1].beside, 8) << "which is no shadow";
+}
+
 TEST(ShadowTracks, TheWayShadowsFallTurnsWithTheCamera) {
     const cv::Point2d to_the_right_of_what_heads_down(-0.7, 0.1);
     EXPECT_EQ(lorryAndShadow(1.5708).left(to_the_right_of_what_heads_down), Tracks{1});
