@@ -169,7 +169,7 @@ TEST(ChainRun, whateverGoesWrongEndsTheRunAndSaysWhoHasToAct) {
             return scene.draw(index);
         });
         Collector collector;
-        const RunSummary summary = ChainRun(ChainOptions{}, scale()).run(source, {}, collector, {});
+        RunSummary summary = ChainRun(ChainOptions{}, scale()).run(source, {}, collector, {});
         EXPECT_EQ(collector.results.size(), summary.outcome == RunOutcome::failed ? 4U : 6U);
         EXPECT_EQ(summary.frames_done, static_cast<int>(collector.results.size()));
         EXPECT_EQ(summary.frames_total, 6);
