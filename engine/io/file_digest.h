@@ -16,8 +16,8 @@ std::string sha256Of(const std::filesystem::path& path, const std::function<void
 
 /// SHA-256 of how the files lie there that sha256Of() reads, and a list of parts itself: names, sizes and, of pictures
 /// in a folder, times of last writing, else edgeDigestOf(), in their order. Tells at once whether pictures or videos
-/// were put in, taken away or replaced, by older ones too.
-/// Empty for what is no file or folder, or cannot be looked into.
+/// were put in, taken away or replaced, by older ones too. Empty for what is no file or folder, or cannot be looked
+/// into.
 std::string listingDigestOf(const std::filesystem::path& path);
 
 /// SHA-256 of the first and the last 64 KiB of a file, all of it where it is not longer: tells files of one size apart

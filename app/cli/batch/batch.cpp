@@ -102,7 +102,7 @@ std::optional<Begun> lookedUp(BatchRow& row, const ResumeWishes& wishes) {
     const std::optional<RunRecord> run = runOf(RunStore(file), row, wishes);
     if (!run) return std::nullopt;
     takeFacts(row, file, *run);
-    return Begun{*run, isOfOtherFiles(row.input, *run, file) || isNewer(row.input, *run)};
+    return Begun{*run, isNewer(row.input, *run) || isOfOtherFiles(row.input, *run, file)};
 }
 
 /// The same of one that was just worked on: what its run says where it is finished, nothing else.

@@ -148,10 +148,8 @@ void FinishingOptions::describe(ParameterVisitor& v) {
     declare.flag("finishing.trim_shadows", trim_shadows,
                  {"",
                   "Take the shadow out of the boxes of sure tracks where the vehicles show which way shadows fall, and "
-                  "what their "
-                  "headlights light ahead of them where no shadows fall and a quarter of the tracks have them on. "
-                  "Needs a method "
-                  "with a classifier.",
+                  "what their headlights light ahead of them where no shadows fall and a quarter of the tracks have "
+                  "them on. Needs a method with a classifier.",
                   ""});
     declare.real(
         "finishing.min_detected", min_detected, 0, 1,

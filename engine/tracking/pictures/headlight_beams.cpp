@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <map>
 
-#include "core/robust_statistics.h"
-
 namespace eyrie {
 namespace {
 
@@ -15,21 +13,10 @@ constexpr double kMostLit = 0.25;           ///< … and share of those that wer
 constexpr double kLampsWithin = 0.06;       ///< share of the length by which lamps lie behind the front
 constexpr double kLongestOut = 0.5;         ///< share of the length that is taken out at most
 
-/// By track that was looked at: the usual share of its length that is a beam.
-std::map<TrackId, double> usualBeams(const std::vector<SilhouetteLook>& looks) {
-    std::map<TrackId, std::vector<double>> shares;
-    for (const SilhouetteLook& look : looks) shares[look.track].push_back(look.beam);
-    std::map<TrackId, double> usual;
-    for (auto& [track, of_track] : shares) {
-        if (of_track.size() >= kFewestLookedAt) usual[track] = medianOf(std::move(of_track));
-    }
-    return usual;
-}
-
 }  // namespace
 
 void takeOutBeams(std::vector<TrackPath>& paths, const std::vector<SilhouetteLook>& looks) {
-    const std::map<TrackId, double> beams = usualBeams(looks);
+    const std::map<TrackId, double> beams = usualByTrack(looks, &SilhouetteLook::beam, kFewestLookedAt);
     const auto lit =
         std::count_if(beams.begin(), beams.end(), [](const auto& beam) { return beam.second >= kClearBeam; });
     if (lit < kFewestLit || static_cast<double>(lit) < kMostLit * static_cast<double>(beams.size())) return;

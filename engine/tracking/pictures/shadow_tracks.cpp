@@ -21,15 +21,6 @@ std::optional<double> reachDuring(const TrackPath& track, const std::vector<Cast
     return std::hypot(shadow->reach_m.x, shadow->reach_m.y);
 }
 
-/// By track: the usual share of its box that is shaded.
-std::map<TrackId, double> usuallyShaded(const std::vector<SilhouetteLook>& looks) {
-    std::map<TrackId, std::vector<double>> shares;
-    for (const SilhouetteLook& look : looks) shares[look.track].push_back(look.shaded);
-    std::map<TrackId, double> usual;
-    for (auto& [track, of_track] : shares) usual[track] = medianOf(std::move(of_track));
-    return usual;
-}
-
 /// Whether a track usually lies that way off a vehicle which shadows fall to.
 bool liesWhereShadowsFall(const TrackPath& track, const TrackPath& vehicle, const std::vector<CastShadow>& shadows,
                           const GroundTurns& turns, const SceneScale& scale) {
@@ -52,7 +43,7 @@ void dropShadowTracks(std::vector<TrackPath>& paths, const std::vector<Silhouett
                       const std::vector<CastShadow>& shadows, const GroundTurns& turns, const SceneScale& scale,
                       DropList& dropped) {
     if (shadows.empty()) return;
-    const std::map<TrackId, double> shaded = usuallyShaded(looks);
+    const std::map<TrackId, double> shaded = usualByTrack(looks, &SilhouetteLook::shaded, 1);
     const auto is_shadow = [&](const TrackPath& track, const TrackPath& vehicle) {
         const auto share = shaded.find(track.id);
         if (share == shaded.end() || share->second < kShadedBox) return false;

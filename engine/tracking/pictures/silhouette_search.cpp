@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/geometry/homography_jacobian.h"
+#include "core/robust_statistics.h"
 #include "core/values/last_frame.h"
 #include "tracking/finishing/frames_of.h"
 #include "tracking/finishing/track_occupancy.h"
@@ -98,6 +99,17 @@ class SilhouetteSearch::Plan {
     int apart_;   ///< frames between pictures that are read
     int within_;  ///< frames
 };
+
+std::map<TrackId, double> usualByTrack(const std::vector<SilhouetteLook>& looks, double SilhouetteLook::*figure,
+                                       std::size_t fewest_looks) {
+    std::map<TrackId, std::vector<double>> figures;
+    for (const SilhouetteLook& look : looks) figures[look.track].push_back(look.*figure);
+    std::map<TrackId, double> usual;
+    for (auto& [track, of_track] : figures) {
+        if (of_track.size() >= fewest_looks) usual[track] = medianOf(std::move(of_track));
+    }
+    return usual;
+}
 
 SilhouetteSearch::SilhouetteSearch(const std::vector<TrackPath>& paths, const GroundMotion& ground,
                                    const SceneScale& scale)

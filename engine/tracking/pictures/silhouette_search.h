@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <opencv2/core/mat.hpp>
 #include <optional>
@@ -21,6 +22,10 @@ struct SilhouetteLook {
     double beam = 0;                       ///< share of its length that is lit ground ahead of its lamps
     std::optional<Silhouette> silhouette;  ///< of its vehicle, where one stands out by itself
 };
+
+/// By track: the median of what its looks say of it, of those that were looked at so often at least.
+std::map<TrackId, double> usualByTrack(const std::vector<SilhouetteLook>& looks, double SilhouetteLook::*figure,
+                                       std::size_t fewest_looks);
 
 /// Looks at the vehicles of sure tracks, each at some moments of its life spread over it, beside pictures from before
 /// and after in which no track covers the ground there. It is shown each picture that it needs once, in ascending
