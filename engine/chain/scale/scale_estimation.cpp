@@ -108,7 +108,10 @@ std::optional<ScaleEstimate> estimateMiddle(FrameSource& source, FrameRange rang
     for (const FrameIndex first : {range.first, range.first + (farthest - range.first) / 2, farthest}) {
         if (first <= looked_to || stop.stop_requested()) continue;
         looked_to = first + kFramesOfLook - 1;
-        const auto outcomes = outcomesOf(source, first, last, options, frame_rate_hz, stop, told);
+        auto outcomes = outcomesOf(source, first, last, options, frame_rate_hz, stop, told);
+        if (source.info().frame_rate_assumed) {
+            for (ScaleOutcome& outcome : outcomes) outcome.car_speeds_m_s.clear();
+        }
         // What looks like a vehicle by chance must not add up to traffic.
         if (outcomes.empty() || !estimateOfScale(outcomes)) continue;
         for (std::size_t i = 0; i < outcomes.size(); ++i) together[i] = together[i] + outcomes[i];

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "core/robust_statistics.h"
 #include "core/values/scene_scale.h"
 
 namespace eyrie {
@@ -18,12 +19,27 @@ constexpr double kOwnError = 0.11;  ///< standard error of the logarithm where v
 /// The same where hardly anything that is detected looks like a vehicle: over relief, at night, in haze.
 constexpr double kErrorInDoubt = 0.45;
 /// Shares of the detections that look like vehicles: below the first of a pair fully, above the second not at all.
-constexpr std::pair kDoubted(0.2, 0.3);  ///< what they tell is doubted
-constexpr std::pair kDrawn(0.1, 0.16);   ///< … and drawn to the scale that would be assumed without them
-constexpr double kDrawnBy = 0.36;        ///< share of the logarithm: the doubt against a spread of .6 among videos
+constexpr std::pair kDoubted(0.2, 0.45);  ///< what they tell is doubted
+constexpr std::pair kDrawn(0.1, 0.16);    ///< … and drawn to the scale that would be assumed without them
+constexpr double kDrawnBy = 0.36;         ///< share of the logarithm: the doubt against a spread of .6 among videos
+constexpr double kFast = 0.75;            ///< share of the cars that the fastest quarter leaves below
+constexpr double kTownSpeed = 11;         ///< m/s of the slowest of those
+constexpr double kSpeedError = 0.45;      ///< standard error of its logarithm: between a jam and a motorway
 /// Of the logarithm within one step of the assumptions.
 const double kStepVariance = std::log(kStep) * std::log(kStep) / 12;
 constexpr double kSure = 1.645;  ///< standard errors that hold 90 %
+
+/// A logarithm that is known so well.
+struct LogOfScale {
+    double value = 0;
+    double variance = 0;
+};
+
+/// Both together, by how sure they are.
+LogOfScale combined(const LogOfScale& a, const LogOfScale& b) {
+    const double variance = 1 / (1 / a.variance + 1 / b.variance);
+    return {variance * (a.value / a.variance + b.value / b.variance), variance};
+}
 
 double partBelow(double share, const std::pair<double, double>& limits) {
     return std::clamp((limits.second - share) / (limits.second - limits.first), 0.0, 1.0);
@@ -49,8 +65,14 @@ bool ScaleOutcome::showsTraffic() const {
 }
 
 ScaleOutcome operator+(const ScaleOutcome& a, const ScaleOutcome& b) {
-    return {a.detections + b.detections, a.looks + b.looks, a.decision + b.decision, a.tracks + b.tracks,
-            a.cars + b.cars};
+    ScaleOutcome both = a;
+    both.detections += b.detections;
+    both.looks += b.looks;
+    both.decision += b.decision;
+    both.tracks += b.tracks;
+    both.cars += b.cars;
+    both.car_speeds_m_s.insert(both.car_speeds_m_s.end(), b.car_speeds_m_s.begin(), b.car_speeds_m_s.end());
+    return both;
 }
 
 bool isCarSized(double length_m, double width_m) {
@@ -78,13 +100,17 @@ std::optional<ScaleEstimate> estimateOfScale(const std::vector<ScaleOutcome>& ou
     }
     const double middle = sum / weights;
     const double spread = squares / weights - middle * middle + kStepVariance;
-    ScaleEstimate estimate;
     const double drawn = kDrawnBy * partBelow(peak.alike(), kDrawn);
-    estimate.gsd_m_per_px = std::exp(middle + drawn * (std::log(SceneScale().gsd_m_per_px) - middle));
-    estimate.vehicles = static_cast<int>(peak.cars);
     const double own_error = kOwnError + partBelow(peak.alike(), kDoubted) * (kErrorInDoubt - kOwnError);
-    estimate.uncertainty = std::exp(kSure * std::hypot(own_error, std::sqrt(spread / peak.cars)));
-    return estimate;
+    LogOfScale scale{middle + drawn * (std::log(SceneScale().gsd_m_per_px) - middle),
+                     own_error * own_error + spread / peak.cars};
+    const double fast = peak.car_speeds_m_s.empty() ? 0 : quantileOf(peak.car_speeds_m_s, kFast);
+    if (fast > 0) {
+        const double as_in_town = assumedGsd(best) * kTownSpeed / fast;
+        scale = combined(scale, {std::log(as_in_town), kSpeedError * kSpeedError});
+    }
+    return ScaleEstimate{std::exp(scale.value), std::exp(kSure * std::sqrt(scale.variance)),
+                         static_cast<int>(peak.cars)};
 }
 
 }  // namespace eyrie

@@ -1,6 +1,7 @@
 #include "chain/scale/scale_trial.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <vector>
 
@@ -24,12 +25,12 @@ std::optional<FrameIndex> lastOfLook(const FrameSource& source, FrameRange range
 
 ScaleOutcome outcomeUnder(int count, const FrameOfLook& frame_of, const ChainOptions& options, const SceneScale& scale,
                           const std::stop_token& stop, const std::function<void()>& tell) {
-    struct Sizes {
-        std::vector<double> lengths, widths;
+    struct Seen {
+        std::vector<double> lengths, widths, speeds;
     };
     ScaleOutcome outcome;
     Chain chain(options, scale);
-    std::map<TrackId, Sizes> sizes;
+    std::map<TrackId, Seen> tracks;
     for (int i = 0; i < count && !stop.stop_requested(); ++i) {
         const FrameResult result = chain.next(frame_of(i));
         tell();
@@ -43,14 +44,18 @@ ScaleOutcome outcomeUnder(int count, const FrameOfLook& frame_of, const ChainOpt
         for (const auto& track : result.tracks) {
             if (track.status != TrackStatus::confirmed) continue;
             const SceneScale here = scale.at(track.box.centre);
-            sizes[track.id].lengths.push_back(here.metres(track.box.length));
-            sizes[track.id].widths.push_back(here.metres(track.box.width));
+            Seen& seen = tracks[track.id];
+            seen.lengths.push_back(here.metres(track.box.length));
+            seen.widths.push_back(here.metres(track.box.width));
+            seen.speeds.push_back(here.metresPerSecond(std::hypot(track.velocity.x, track.velocity.y)));
         }
     }
-    for (auto& [id, seen] : sizes) {
+    for (auto& [id, seen] : tracks) {
         if (seen.lengths.size() < kFewestStates) continue;
         ++outcome.tracks;
-        outcome.cars += isCarSized(medianOf(seen.lengths), medianOf(seen.widths));
+        if (!isCarSized(medianOf(seen.lengths), medianOf(seen.widths))) continue;
+        ++outcome.cars;
+        outcome.car_speeds_m_s.push_back(medianOf(seen.speeds));
     }
     return outcome;
 }
