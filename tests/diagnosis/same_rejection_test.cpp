@@ -34,6 +34,7 @@ ChainOptions nothingDropped() {
     ChainOptions options;
     options.finishing.min_length_m = 0;
     options.finishing.min_width_m = 0;
+    options.finishing.max_aspect = 0;
     options.finishing.max_sharing = 1;
     options.finishing.drop_shadows = false;
     options.finishing.min_detected = 0;
@@ -131,6 +132,7 @@ TEST(SameRejection, WhatTrackingAndFinishingLeaveOut) {
         {TrackDrop::unconfirmed, "tracking.confirm_hits",
          [](ChainOptions& o) { o.tracking.confirm_hits = o.tracking.confirm_window = 64; }},
         {TrackDrop::too_small, "finishing.min_length", [](ChainOptions& o) { o.finishing.min_length_m = 50; }},
+        {TrackDrop::wider_than_long, "finishing.max_aspect", [](ChainOptions& o) { o.finishing.max_aspect = 0.1; }},
         {TrackDrop::unlikely, "finishing.min_score", [](ChainOptions& o) { o.finishing.min_score = 1; }},
     };
     for (const LeftOut& left_out : all) {
@@ -220,8 +222,8 @@ TEST_F(HandMadeFrame, EveryRejectionHasOneCause) {
 
 TEST_F(HandMadeFrame, EveryTrackDropHasOneCause) {
     for (const TrackDrop drop :
-         {TrackDrop::unconfirmed, TrackDrop::too_small, TrackDrop::shares_place, TrackDrop::shadow,
-          TrackDrop::hardly_detected, TrackDrop::could_stand, TrackDrop::unlikely}) {
+         {TrackDrop::unconfirmed, TrackDrop::too_small, TrackDrop::wider_than_long, TrackDrop::shares_place,
+          TrackDrop::shadow, TrackDrop::hardly_detected, TrackDrop::could_stand, TrackDrop::unlikely}) {
         evidence.result.dropped = {{7, evidence.result.detections.front().box, drop, 2}};
         const Explanation told = why();
         const DiagnosedError error = miss();

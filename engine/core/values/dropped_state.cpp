@@ -10,6 +10,9 @@ std::string textOf(const DroppedState& dropped) {
             return track + " was never confirmed";
         case TrackDrop::too_small:
             return track + " stayed smaller than any vehicle";
+        case TrackDrop::wider_than_long:
+            return track +
+                   " stayed wider than long, as people, riders and upright things do that are seen from the side";
         case TrackDrop::shares_place:
             return track + " lies on " + other + ", which was detected more often";
         case TrackDrop::shadow:
@@ -31,6 +34,8 @@ const char* parameterOf(TrackDrop why) {
             return "tracking.confirm_hits";
         case TrackDrop::too_small:
             return "finishing.min_length";
+        case TrackDrop::wider_than_long:
+            return "finishing.max_aspect";
         case TrackDrop::shares_place:
             return "finishing.max_sharing";
         case TrackDrop::shadow:

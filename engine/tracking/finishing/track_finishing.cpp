@@ -132,6 +132,12 @@ void FinishingOptions::describe(ParameterVisitor& v) {
         {"m", "Tracks whose boxes stay shorter are not vehicles. Used where the ground sampling distance is known.",
          ""});
     declare.real("finishing.min_width", min_width_m, 0, 100, {"m", "The same for the width.", ""});
+    declare.real("finishing.max_aspect", max_aspect, 0, 10,
+                 {"",
+                  "Tracks whose boxes are usually wider than this many times their length are no vehicles, but people, "
+                  "riders or "
+                  "upright things seen from the side. 0: none.",
+                  ""});
     declare.real(
         "finishing.max_sharing", max_sharing, 0, 1,
         {"",
@@ -201,6 +207,7 @@ FinishingOptions FinishingOptions::thesis() {
     options.follow_ends_s = 0;
     options.min_length_m = 0;
     options.min_width_m = 0;
+    options.max_aspect = 0;
     options.max_sharing = 1;
     options.drop_shadows = false;
     options.trim_shadows = false;
@@ -346,6 +353,7 @@ FinishedTracks finishRun(const StatesOfRun& states, const GroundMotion& ground, 
         if (options.constant_size) steadySize(path, ground, framesOf(options.size_window_s / 2, scale));
         if (options.smooth_path) smoothPath(path, ground, std::max(2, framesOf(options.smooth_window_s / 2, scale)));
     }
+    dropWiderThanLong(paths, options.max_aspect, drops);
     if (options.drop_shadows) dropShadows(paths, scale, drops);
     traceBack(paths, ground, found.vectors_at, framesOf(options.trace_back_s, scale));
     dropHardlyDetected(paths, options.min_detected, scale, drops);

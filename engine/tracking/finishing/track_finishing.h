@@ -51,6 +51,7 @@ struct FinishingOptions {
     double follow_ends_s = 3;
     double min_length_m = 1.8;
     double min_width_m = 0.9;
+    double max_aspect = 1.2;
     double max_sharing = 0.5;
     bool drop_shadows = true;
     bool trim_shadows = true;

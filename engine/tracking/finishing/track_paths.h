@@ -61,6 +61,9 @@ void smoothPath(TrackPath& path, const GroundMotion& ground, int half_window);
 void dropTooSmall(std::vector<TrackPath>& paths, const FinishingOptions& options, const SceneScale& scale,
                   DropList& dropped);
 
+/// Drops tracks whose boxes, in the median, are wider than `max_aspect` times their length; 0: none.
+void dropWiderThanLong(std::vector<TrackPath>& paths, double max_aspect, DropList& dropped);
+
 /// Two vehicles cannot be in one place: of two tracks that share more than `max_sharing` of the smaller one's area on
 /// average (of the union where the larger box is wider than any vehicle), the one that was detected less often gives
 /// way where they meet, or wholly when little of it is left.

@@ -21,12 +21,6 @@ constexpr double kPlaceMargin = 1;        ///< px
 constexpr double kSureSeconds = 0.4;      ///< a track detected for so long altogether is not doubted
 constexpr double kSizeQuantile = 0.75;    ///< boxes miss parts more often than they exceed the vehicle
 
-double quantileOf(std::vector<double> values, double share) {
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
-}
-
 /// `length`, `width`: limits in m.
 bool tooSmall(const TrackPath& path, double length, double width, const SceneScale& scale) {
     std::vector<double> lengths;
@@ -107,6 +101,18 @@ void dropTooSmall(std::vector<TrackPath>& paths, const FinishingOptions& options
     std::erase_if(paths, [&](TrackPath& path) {
         if (!tooSmall(path, length, width, scale)) return false;
         drop(path, TrackDrop::too_small, dropped);
+        return true;
+    });
+}
+
+void dropWiderThanLong(std::vector<TrackPath>& paths, double max_aspect, DropList& dropped) {
+    if (max_aspect == 0) return;
+    std::erase_if(paths, [&](TrackPath& path) {
+        std::vector<double> aspects;
+        aspects.reserve(path.states.size());
+        for (const auto& [frame, state] : path.states) aspects.push_back(state.box.width / state.box.length);
+        if (medianOf(std::move(aspects)) <= max_aspect) return false;
+        drop(path, TrackDrop::wider_than_long, dropped);
         return true;
     });
 }

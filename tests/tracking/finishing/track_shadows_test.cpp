@@ -107,6 +107,25 @@ TEST(DropTooSmall, SizesCountWhereTheScaleIsEstimatedButNotWhereItIsAssumed) {
     EXPECT_EQ(road.finished({}, nullptr, SceneScale{}), (std::set<TrackId>{1, 2, 3}));
 }
 
+TEST(DropWiderThanLong, WhatStaysAFifthWiderThanLongIsNoVehicle) {
+    Road road;
+    road.add(1, {0, 0}, kCar, kSpeed, 0, 59, 1);
+    road.add(2, {0, -60}, {10, 12.5}, kSpeed, 0, 59, 1);  // as a rider from the side
+    road.add(3, {0, 60}, {10, 11.5}, kSpeed, 0, 59, 1);   // as a car from behind
+    std::vector<TimedDrop> dropped;
+    EXPECT_EQ(road.finished({}, &dropped), (std::set<TrackId>{1, 3}));
+    ASSERT_FALSE(dropped.empty());
+    EXPECT_EQ(dropped.front().second.why, TrackDrop::wider_than_long);
+    EXPECT_EQ(road.finished({}, nullptr, SceneScale{}), (std::set<TrackId>{1, 3})) << "whatever the scale";
+    FinishingOptions options;
+    options.max_aspect = 1.3;
+    EXPECT_EQ(road.finished(options), (std::set<TrackId>{1, 2, 3}));
+    options.max_aspect = 1.1;
+    EXPECT_EQ(road.finished(options), std::set<TrackId>{1});
+    options.max_aspect = 0;
+    EXPECT_EQ(road.finished(options), (std::set<TrackId>{1, 2, 3}));
+}
+
 TEST(DroppedTracks, AreToldWithTheirReason) {
     Road road;
     road.add(1, {0, 0}, kCar, kSpeed, 0, 59, 1);
