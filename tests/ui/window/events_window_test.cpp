@@ -1,8 +1,11 @@
+#include <QApplication>
 #include <QDockWidget>
 #include <QFile>
+#include <QMenu>
 #include <QPushButton>
 #include <QTableView>
 #include <QTest>
+#include <QTimer>
 #include <algorithm>
 
 #include "canvas/timeline/timeline_view.h"
@@ -135,6 +138,25 @@ class EventsWindowTest : public QObject {
         QVERIFY(!window.timeline().kindsShown());
         window.actions().event_rows->setChecked(true);
         QVERIFY(window.timeline().kindsShown());
+    }
+
+    void theReportIsACommandToo() {
+        const auto window = windowWithEvents();
+        QVERIFY(window);
+        const QAction* report = window->actions().report_events;
+        QVERIFY(report->isEnabled());
+        window->docks().raise(DockId::tracks);
+        QStringList offered;
+        QTimer::singleShot(0, window.get(), [&] {
+            auto* choices = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+            if (choices == nullptr) return;
+            for (const QAction* choice : choices->actions()) offered << choice->text();
+            QVERIFY(choices->activeAction() != nullptr);
+            choices->close();
+        });
+        window->actions().report_events->trigger();
+        QCOMPARE(offered.size(), 3);
+        QVERIFY(window->events().panel().isVisible());
     }
 
     void reportsAreWrittenOrSayWhyNot() {
