@@ -132,7 +132,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     buildMenus();
     wireCanvas();
     wireSession();
-    joinInspection({session_, *inspection_, *canvas_, overlays_, *review_, [this] { commands_->startRun(); }});
+    joinInspection({session_, *inspection_, *canvas_, overlays_, *docks_, *review_, [this] { commands_->startRun(); }});
     restoreGeometry(settings_.geometry());
     setWindowState(windowState() & ~Qt::WindowFullScreen);  // a window that was closed so begins with all it has
     buildWorkspaces();

@@ -140,6 +140,27 @@ class EventsWindowTest : public QObject {
         QVERIFY(window.timeline().kindsShown());
     }
 
+    void theSearchAreaOfATrackIsDrawnOnlyWhereADockExplainsIt() {
+        const auto window = test::windowWithRun();
+        QVERIFY(window);
+        const auto open = [&](WorkspaceKind kind) { window->actions().workspaceAction(kind)->trigger(); };
+        const auto drawn = [&] { return window->canvas().inspectedArea().has_value(); };
+        open(WorkspaceKind::tune);
+        QVERIFY(QTest::qWaitFor(
+            [&] { return window->session().runData() && !window->session().runData()->tracks.empty(); }, kPatience_ms));
+        const std::vector<TrackSummary> tracks = window->session().runData()->tracks;
+        for (const TrackSummary& track : tracks) {
+            window->session().selectTrack(track.id);
+            window->session().goToFrame((track.first_frame + track.last_frame) / 2);
+            if (QTest::qWaitFor(drawn, 1000)) break;
+        }
+        QVERIFY(drawn());
+        open(WorkspaceKind::review);
+        QVERIFY2(!drawn(), "operators are not told what it means");
+        open(WorkspaceKind::tune);
+        QVERIFY(drawn());
+    }
+
     void theReportIsACommandToo() {
         const auto window = windowWithEvents();
         QVERIFY(window);
