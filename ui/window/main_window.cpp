@@ -221,7 +221,7 @@ void MainWindow::buildMenus() {
 void MainWindow::start(const StartOptions& options) {
     if (options.workspace) workspaces_->open(*options.workspace);
     if (isLiveAddress(options.input.string()))
-        live_->ask(QString::fromStdString(options.input.string()));
+        live_->ask(QString::fromStdString(options.input.string()), options.gsd_m_per_px);
     else
         files_->start(options);
 }
