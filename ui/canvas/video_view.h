@@ -45,6 +45,7 @@ class VideoView : public QWidget {
                      std::vector<BoxRecord> ground_truth);
     /// The search area that is looked at more closely, image coordinates.
     void setInspectedArea(std::optional<OrientedBox> area);
+    const std::optional<OrientedBox>& inspectedArea() const { return inspected_area_; }
     /// The place that is asked about; nothing: none.
     void setPlaceMark(std::optional<PlaceMark> mark);
     /// A few words that stand on the picture, such as "preview"; empty: none.

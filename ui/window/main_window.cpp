@@ -132,7 +132,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent) {
     buildMenus();
     wireCanvas();
     wireSession();
-    joinInspection({session_, *inspection_, *canvas_, overlays_, *review_, [this] { commands_->startRun(); }});
+    joinInspection({session_, *inspection_, *canvas_, overlays_, *docks_, *review_, [this] { commands_->startRun(); }});
     restoreGeometry(settings_.geometry());
     setWindowState(windowState() & ~Qt::WindowFullScreen);  // a window that was closed so begins with all it has
     buildWorkspaces();
@@ -221,7 +221,7 @@ void MainWindow::buildMenus() {
 void MainWindow::start(const StartOptions& options) {
     if (options.workspace) workspaces_->open(*options.workspace);
     if (isLiveAddress(options.input.string()))
-        live_->ask(QString::fromStdString(options.input.string()));
+        live_->ask(QString::fromStdString(options.input.string()), options.gsd_m_per_px);
     else
         files_->start(options);
 }

@@ -40,7 +40,9 @@ ExportDialog::ExportDialog(ExportSource source, QWidget* parent)
     for (const ExportOffer& each : source_.offers) format_->addItem(each.title, each.name);
     holds_->setWordWrap(true);
     text_->setReadOnly(true);
-    text_->setPlaceholderText(tr("What was written, and what the format cannot hold, is listed here."));
+    text_->setPlaceholderText(source_.offers.size() > 1
+                                  ? tr("What was written, and what the format cannot hold, is listed here.")
+                                  : tr("What was written is told here."));
     text_->setMinimumSize(kReportSize);
     auto* choose = new QPushButton(tr("Choose…"));
     auto* place = new QHBoxLayout;

@@ -298,6 +298,10 @@ void WindowActions::addEvents() {
              QT_TR_NOOP("Undo the last verdict, star, note, bookmark, correction of a track or change of a zone")});
     redo_verdict = add(tr("Re&do"), {"edit-redo", {QKeySequence(tr("Ctrl+Shift+Z")), QKeySequence(tr("Ctrl+Y"))}});
     group();
+    report_events = add(tr("Report o&f the events…"),
+                        {"document-export",
+                         {QKeySequence(tr("Ctrl+Shift+V"))},
+                         QT_TR_NOOP("Write events with pictures and verdicts as one HTML or PDF file")});
     clip_event = add(tr("&Clip of the event…"),
                      {"document-export",
                       {QKeySequence(tr("Ctrl+Shift+C"))},

@@ -41,8 +41,8 @@ class WindowActions : public QObject {
     QAction *next_error, *previous_error, *why_error, *wrong_truth, *report;
     QAction *next_event, *previous_event, *next_open_event, *relevant, *not_relevant, *unsure, *take_back, *star, *note,
         *like_track, *add_track, *join_tracks, *split_track, *reject_tracks, *remove_correction, *undo_verdict,
-        *redo_verdict, *clip_event, *clip_track, *draw_zone, *draw_line, *draw_arrow, *control_points, *bookmark,
-        *next_bookmark, *previous_bookmark, *remove_bookmark;
+        *redo_verdict, *report_events, *clip_event, *clip_track, *draw_zone, *draw_line, *draw_arrow, *control_points,
+        *bookmark, *next_bookmark, *previous_bookmark, *remove_bookmark;
     QAction *why, *live_preview, *compare, *train;
     std::array<QAction*, kWorkspaceCount> workspace;
     std::map<OverlayKind, QAction*> overlay;

@@ -239,6 +239,19 @@ class EventsListTest : public test::ListedEvents {
         QVERIFY2(tip(1).endsWith(QStringLiteral("\nUnsure")), qPrintable(tip(1)));
     }
 
+    void noteAndTagsAreInTheTipSinceTheirColumnsMayBeOutOfView() {
+        EventsModel model;
+        give(model, found(someEvents()));
+        verdicts_[0].note = "stands at the gate";
+        verdicts_[0].tags = {"bus", "lorry"};
+        judge(model, 0, Judgement::relevant);
+        const auto tip = [&model](int row) {
+            return model.index(row, EventsModel::kind_column).data(Qt::ToolTipRole).toString();
+        };
+        QVERIFY2(tip(0).endsWith(QStringLiteral("\nNote: stands at the gate\nTags: bus, lorry")), qPrintable(tip(0)));
+        QVERIFY2(!tip(1).contains(QStringLiteral("Note")), qPrintable(tip(1)));
+    }
+
     void anEventStaysSelectedWhenLimitsChange() {
         EventsModel model;
         EventsPanel panel(&model, *actions_);

@@ -4,6 +4,8 @@
 #include <QFrame>
 #include <QHeaderView>
 #include <QLineEdit>
+#include <QPointer>
+#include <QScrollBar>
 #include <QTableView>
 #include <QTest>
 #include <QToolButton>
@@ -275,6 +277,43 @@ class FilterChipsTest : public QObject {
         tomorrow.listLike(5);
         QCOMPARE(tomorrow.chips().filter().like->counts, (LikenessChoice{false, false, false, true}));
         QCOMPARE(tomorrow.chips().filter().like->track, TrackId(5));
+    }
+
+    void theMostLikeAreInViewAndSoIsHowMuch() {
+        TracksModel model;
+        TracksPanel panel(&model);
+        panel.resize(300, 200);
+        panel.show();
+        std::vector<TrackSummary> many;
+        for (int n = 1; n <= 100; ++n) many.push_back(trackOf(n));
+        model.setTracks(many, kMetres);
+        for (const TrackId chosen : {90, 80}) {
+            panel.table()->scrollToBottom();
+            panel.listLike(chosen);
+            const auto likeness = std::make_shared<LikenessByTrack>();
+            likeness->chosen = chosen;
+            for (int n = 1; n <= 100; ++n)
+                if (n != chosen) likeness->likeness[n] = 0.5 + 0.004 * n;
+            panel.setLikeness(likeness);
+            QCOMPARE(listed(panel).front(), chosen);
+            QCOMPARE(panel.table()->verticalScrollBar()->value(), 0);
+        }
+        const QModelIndex like = panel.table()->model()->index(0, TracksModel::like_column);
+        QVERIFY(panel.table()->viewport()->rect().contains(panel.table()->visualRect(like)));
+    }
+
+    void enterClosesALimitThatCanBeRead() {
+        FilterChips chips;
+        chips.show();
+        const QPointer<QFrame> limits = chips.openLimits(TrackQuality::speed);
+        auto* from = limits->findChild<QLineEdit*>();
+        from->setText(QStringLiteral("fast"));
+        QTest::keyClick(from, Qt::Key_Return);
+        QVERIFY(limits->isVisible());
+        from->setText(QStringLiteral("50"));
+        QTest::keyClick(from, Qt::Key_Return);
+        QVERIFY(limits == nullptr || !limits->isVisible());
+        QCOMPARE(chips.filter().range(TrackQuality::speed).from, std::optional(50.0));
     }
 
     void likenessToAnotherTrackCountsForNothing() {

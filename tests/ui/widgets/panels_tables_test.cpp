@@ -4,6 +4,7 @@
 #include <QLineEdit>
 #include <QMenu>
 #include <QPushButton>
+#include <QScrollBar>
 #include <QSignalSpy>
 #include <QSlider>
 #include <QStandardItemModel>
@@ -109,6 +110,45 @@ class TablesTest : public QObject {
         const QRect row = panel.table()->visualRect(panel.table()->model()->index(1, 0));
         QTest::mouseClick(panel.table()->viewport(), Qt::LeftButton, Qt::ControlModifier, row.center());
         QCOMPARE(panel.selectedIds(), (QList<int>{1, 2}));
+    }
+
+    void aClickOnAWideCellLeavesTheColumnsWhereTheyAre() {
+        TracksModel model;
+        TracksPanel panel(&model);
+        model.setTracks(several(5, sampleTrack), {});
+        panel.resize(300, 300);
+        panel.show();
+        QTableView& table = *panel.table();
+        table.setColumnWidth(TracksModel::first_column, 600);
+        QScrollBar& sideways = *table.horizontalScrollBar();
+        QCOMPARE(sideways.value(), 0);
+        table.setFocus();
+        const QModelIndex wide = table.model()->index(1, TracksModel::first_column);
+        QTest::mouseClick(table.viewport(), Qt::LeftButton, {}, table.visualRect(wide).topLeft() + QPoint(5, 5));
+        QTest::qWait(QApplication::doubleClickInterval() + 200);  // views go there only when it is no double click
+        QCOMPARE(sideways.value(), 0);
+        QCOMPARE(table.currentIndex().column(), static_cast<int>(TracksModel::first_column));
+        QTest::keyClick(&table, Qt::Key_Down);
+        QCOMPARE(sideways.value(), 0);
+        QTest::keyClick(&table, Qt::Key_Right);
+        const int place = sideways.value();
+        QVERIFY2(place > 0, "who goes to another column by keys sees it");
+        panel.selectId(1);
+        QCOMPARE(sideways.value(), place);
+    }
+
+    void aColumnThatWasShownStaysSoEvenIfTheModelGoesFirst() {
+        {
+            auto model = std::make_unique<TracksModel>();
+            TracksPanel panel(model.get());
+            QVERIFY(panel.table()->isColumnHidden(TracksModel::picture_column));
+            panel.table()->setColumnHidden(TracksModel::picture_column, false);
+            model->setTracks(several(3, sampleTrack), {});
+            model.reset();  // as when a signal ends the program
+        }
+        TracksModel model;
+        const TracksPanel panel(&model);
+        QVERIFY(!panel.table()->isColumnHidden(TracksModel::picture_column));
     }
 
     void choosingARunTellsIt() {

@@ -331,8 +331,11 @@ class CorrectingWindowTest : public QObject {
             QCOMPARE(chooseFirstTwo().size(), 2);
             QTest::keyClick(&window->canvas(), Qt::Key_Backspace);
             QVERIFY2(waitForTracks(*window, all - 1), "nobody sees the list: the selected track is meant alone");
+            QVERIFY(tells(*window, tr("is rejected")));
             QTest::keyClick(&window->canvas(), Qt::Key_Z);
             QVERIFY(waitForTracks(*window, all));
+            for (const QString& text : window->messages().texts())
+                QVERIFY2(!text.contains(tr("is rejected")), "what was undone is told no longer");
             window->docks().raise(DockId::tracks);
             const QList<int> chosen = chooseFirstTwo();
             QCOMPARE(chosen.size(), 2);

@@ -1,8 +1,11 @@
+#include <QApplication>
 #include <QDockWidget>
 #include <QFile>
+#include <QMenu>
 #include <QPushButton>
 #include <QTableView>
 #include <QTest>
+#include <QTimer>
 #include <algorithm>
 
 #include "canvas/timeline/timeline_view.h"
@@ -135,6 +138,46 @@ class EventsWindowTest : public QObject {
         QVERIFY(!window.timeline().kindsShown());
         window.actions().event_rows->setChecked(true);
         QVERIFY(window.timeline().kindsShown());
+    }
+
+    void theSearchAreaOfATrackIsDrawnOnlyWhereADockExplainsIt() {
+        const auto window = test::windowWithRun();
+        QVERIFY(window);
+        const auto open = [&](WorkspaceKind kind) { window->actions().workspaceAction(kind)->trigger(); };
+        const auto drawn = [&] { return window->canvas().inspectedArea().has_value(); };
+        open(WorkspaceKind::tune);
+        QVERIFY(QTest::qWaitFor(
+            [&] { return window->session().runData() && !window->session().runData()->tracks.empty(); }, kPatience_ms));
+        const std::vector<TrackSummary> tracks = window->session().runData()->tracks;
+        for (const TrackSummary& track : tracks) {
+            window->session().selectTrack(track.id);
+            window->session().goToFrame((track.first_frame + track.last_frame) / 2);
+            if (QTest::qWaitFor(drawn, 1000)) break;
+        }
+        QVERIFY(drawn());
+        open(WorkspaceKind::review);
+        QVERIFY2(!drawn(), "operators are not told what it means");
+        open(WorkspaceKind::tune);
+        QVERIFY(drawn());
+    }
+
+    void theReportIsACommandToo() {
+        const auto window = windowWithEvents();
+        QVERIFY(window);
+        const QAction* report = window->actions().report_events;
+        QVERIFY(report->isEnabled());
+        window->docks().raise(DockId::tracks);
+        QStringList offered;
+        QTimer::singleShot(0, window.get(), [&] {
+            auto* choices = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+            if (choices == nullptr) return;
+            for (const QAction* choice : choices->actions()) offered << choice->text();
+            QVERIFY(choices->activeAction() != nullptr);
+            choices->close();
+        });
+        window->actions().report_events->trigger();
+        QCOMPARE(offered.size(), 3);
+        QVERIFY(window->events().panel().isVisible());
     }
 
     void reportsAreWrittenOrSayWhyNot() {

@@ -1,6 +1,8 @@
+#include <QApplication>
 #include <QComboBox>
 #include <QSignalSpy>
 #include <QTest>
+#include <QTimer>
 #include <condition_variable>
 #include <fstream>
 #include <mutex>
@@ -69,6 +71,20 @@ class HandoverTest : public QObject {
         dialog.setTarget(window->session().project());
         QVERIFY2(!write(dialog), "the project is not overwritten");
         QVERIFY2(dialog.findChild<QComboBox*>()->findData(QStringLiteral("kw18")) >= 0, "an operator's format");
+    }
+
+    void whoExportsIsOfferedTimesMetresAndPlacesFirst() {
+        const auto window = test::windowWithRun();
+        QVERIFY(window);
+        QString offered;
+        QTimer::singleShot(0, window.get(), [&] {
+            auto* dialog = qobject_cast<ExportDialog*>(QApplication::activeModalWidget());
+            if (dialog == nullptr) return;
+            offered = dialog->findChild<QComboBox*>()->currentData().toString();
+            dialog->reject();
+        });
+        window->actions().export_tracks->trigger();
+        QCOMPARE(offered, QStringLiteral("tracks-csv"));
     }
 
     void aClipHasWhatWasAskedFor() {

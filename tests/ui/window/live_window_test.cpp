@@ -23,6 +23,7 @@
 #include "window/live/live_text.h"
 #include "window/live/live_watching.h"
 #include "window/main_window.h"
+#include "window/start_options.h"
 #include "workspace/dock_registry.h"
 #include "workspace/window_actions.h"
 
@@ -96,6 +97,18 @@ class LiveWindowTest : public QObject {
             type(*dialog, QStringLiteral("live_address"), address);
             QVERIFY2(can_watch(), qPrintable(address));
         }
+    }
+
+    void theScaleGivenAtTheStartStandsInTheDialog() {
+        MainWindow window;
+        window.show();
+        StartOptions options;
+        options.input = "udp://127.0.0.1:5000";
+        options.gsd_m_per_px = 0.2;
+        window.start(options);
+        QVERIFY(window.live().dialog() != nullptr);
+        const auto* gsd = window.live().dialog()->findChild<QLineEdit*>(QStringLiteral("live_gsd"));
+        QCOMPARE(gsd->text(), QStringLiteral("0.2"));
     }
 
     void aCameraThatIsNotThereIsToldWhereItWasTyped() {

@@ -97,16 +97,15 @@ class MainWindowTest : public QObject {
              {actions.open_video, actions.open_folder, actions.watch_live, actions.open_project, actions.demo,
               actions.your_name, actions.keys, actions.workspaceAction(WorkspaceKind::label)})
             QVERIFY2(action->isEnabled(), qPrintable(action->text()));
-        for (const QAction* action : {actions.save_as,       actions.save_copy,     actions.restore_state,
-                                      actions.start_time,    actions.export_tracks, actions.report,
-                                      actions.continue_run,  actions.play,          actions.step_on,
-                                      actions.only_moving,   actions.fit,           actions.steady,
-                                      actions.follow_object, actions.measure,       actions.snapshot,
-                                      actions.why,           actions.compare,       actions.next_event,
-                                      actions.relevant,      actions.like_track,    actions.add_track,
-                                      actions.split_track,   actions.undo_verdict,  actions.clip_event,
-                                      actions.bookmark,      actions.draw_zone,     actions.control_points,
-                                      actions.next_error,    actions.wrong_truth})
+        for (const QAction* action :
+             {actions.save_as,       actions.save_copy,   actions.restore_state, actions.start_time,
+              actions.export_tracks, actions.report,      actions.continue_run,  actions.play,
+              actions.step_on,       actions.only_moving, actions.fit,           actions.steady,
+              actions.follow_object, actions.measure,     actions.snapshot,      actions.why,
+              actions.compare,       actions.next_event,  actions.relevant,      actions.like_track,
+              actions.add_track,     actions.split_track, actions.undo_verdict,  actions.clip_event,
+              actions.report_events, actions.bookmark,    actions.draw_zone,     actions.control_points,
+              actions.next_error,    actions.wrong_truth})
             QVERIFY2(!action->isEnabled(), qPrintable(action->text()));
         actions.workspaceAction(WorkspaceKind::label)->trigger();
         const LabelActions& label = window.labelling().actions();

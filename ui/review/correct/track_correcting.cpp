@@ -44,6 +44,8 @@ TrackCorrecting::TrackCorrecting(const CorrectingParts& parts, QObject* parent)
                            {actions.split_track, [this] { split(); }},
                            {actions.reject_tracks, [this] { reject(); }},
                            {actions.remove_correction, [this] { removeLast(); }},
+                           {actions.undo_verdict, [this] { forgetWhatWasTold(); }},
+                           {actions.redo_verdict, [this] { forgetWhatWasTold(); }},
                            {actions.deselect,
                             [this] {
                                 tool_->cancel();
@@ -185,6 +187,10 @@ void TrackCorrecting::tell(const QString& text) {
 
 void TrackCorrecting::warn(const QString& text) {
     parts_.messages.showTopic(kCorrectingTopic, MessageKind::warning, text);
+}
+
+void TrackCorrecting::forgetWhatWasTold() {
+    if (!join_with_ && !working_) parts_.messages.dismissTopic(kCorrectingTopic);
 }
 
 // ---- joining, splitting, rejecting ----------------------------------------------------------------------------------

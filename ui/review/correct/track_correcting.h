@@ -73,6 +73,8 @@ class TrackCorrecting : public QObject {
     void attempt(const QString& step, const MakeCorrections& make, const Kept& kept, std::size_t most = 1);
     void finish(const QString& step, const TriedCorrections& tried, const Kept& kept);
     void tellRefused(const TriedCorrections& tried);
+    /// What was told of a correction need not be true any more.
+    void forgetWhatWasTold();
     void tell(const QString& text);
     void warn(const QString& text);
     void showFollowing(const QString& text);

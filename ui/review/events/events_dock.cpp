@@ -156,6 +156,11 @@ void EventsDock::bindCommands() {
                        parts_.docks.raise(DockId::events);
                        if (anySelected()) panel_->editNote(panel_->currentId());
                    }},
+                  {actions.report_events,
+                   [this] {
+                       parts_.docks.raise(DockId::events);
+                       panel_->chooseReport();
+                   }},
                   {actions.undo_verdict, [this] { review_->undo(); }},
                   {actions.redo_verdict, [this] { review_->redo(); }},
               });
@@ -306,6 +311,7 @@ void EventsDock::enableActions() {
     for (QAction* action :
          {actions.relevant, actions.not_relevant, actions.unsure, actions.take_back, actions.star, actions.note})
         action->setEnabled(judgeable);
+    actions.report_events->setEnabled(active_ && review_->found());
     bookmarks_->enableActions(active_);
     correcting_->enableActions();
     actions.undo_verdict->setEnabled(active_ && review_->canUndo());

@@ -169,6 +169,9 @@ QString EventsModel::tipOf(const EventEntry& entry) const {
     if (!moment.isEmpty()) lines << tr("%1, %2 in the video").arg(moment, eventClockText(*found_, entry.position));
     const QString said = judgedText(entry.judgement, entry.person, entry.judged_utc);
     if (!said.isEmpty()) lines << said;
+    // In a narrow list their columns are out of view.
+    if (!entry.note.isEmpty()) lines << tr("Note: %1").arg(entry.note);
+    if (!entry.tags.isEmpty()) lines << tr("Tags: %1").arg(entry.tags);
     return lines.join(QLatin1Char('\n'));
 }
 

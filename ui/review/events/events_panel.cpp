@@ -7,7 +7,6 @@
 #include <QLabel>
 #include <QLocale>
 #include <QMenu>
-#include <QScrollBar>
 #include <QTableView>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -104,18 +103,18 @@ void EventsPanel::buildButtons() {
         buttons->addWidget(button);
         return button;
     };
-    auto* report = new QToolButton;
-    report->setText(tr("Report…"));
-    report->setToolTip(tr("Write events with pictures and verdicts as one HTML or PDF file"));
-    report->setPopupMode(QToolButton::InstantPopup);
-    auto* choices = new QMenu(report);
+    report_button_ = new QToolButton;
+    report_button_->setText(tr("Report…"));
+    report_button_->setToolTip(actions_.report_events->toolTip());
+    report_button_->setPopupMode(QToolButton::InstantPopup);
+    auto* choices = new QMenu(report_button_);
     const std::pair<QString, ReportedEvents> offered[] = {{tr("Relevant and unsure…"), ReportedEvents::judged},
                                                           {tr("Those listed now…"), ReportedEvents::listed},
                                                           {tr("All events…"), ReportedEvents::all}};
     for (const auto& [text, which] : offered)
         choices->addAction(text, this, [this, which = which] { emit reportWanted(which); });
-    report->setMenu(choices);
-    buttons->addWidget(report);
+    report_button_->setMenu(choices);
+    buttons->addWidget(report_button_);
     limits_button_ = addSwitch(tr("Limits"), tr("What counts as an event"));
     zones_button_ = addSwitch(
         tr("Zones"), tr("Areas and lines that are watched, and arrows for the right way: draw, name, delete them"));
@@ -364,16 +363,18 @@ std::optional<int> EventsPanel::nextOpen(const QList<int>& ids) const {
     return std::nullopt;
 }
 
+void EventsPanel::chooseReport() {
+    QMenu* choices = report_button_->menu();
+    choices->setActiveAction(choices->actions().front());  // who came by keys goes on with them
+    report_button_->showMenu();
+}
+
 void EventsPanel::editNote(int id) {
     const int row = shownRowOf(id);
     if (row < 0) return;
     table()->setColumnHidden(EventsModel::note_column, false);
     const QModelIndex note = table()->model()->index(row, EventsModel::note_column);
-    // Not sideways: the line to write in comes into view by itself, and the row stays to be read.
-    QScrollBar* sideways = table()->horizontalScrollBar();
-    const int place = sideways->value();
-    table()->scrollTo(note);
-    sideways->setValue(place);
+    table()->scrollTo(note);  // not sideways: the line to write in comes into view by itself
     table()->edit(note);
 }
 

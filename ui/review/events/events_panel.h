@@ -74,6 +74,8 @@ class EventsPanel : public TablePanel {
     std::optional<int> nextOpen(const QList<int>& ids) const;
     /// Numbers of the events that are listed, as the run counts them.
     std::vector<int> listedNumbers() const;
+    /// Opens the choice of what a report is to hold.
+    void chooseReport();
     /// Starts writing the note of an event.
     void editNote(int id);
 
@@ -116,6 +118,7 @@ class EventsPanel : public TablePanel {
     QComboBox* verdicts_;
     EventThresholds* thresholds_;
     QWidget* zones_ = nullptr;
+    QToolButton* report_button_ = nullptr;
     QToolButton* limits_button_ = nullptr;
     QToolButton* zones_button_ = nullptr;
     std::size_t left_ = 0;

@@ -103,6 +103,9 @@ QLineEdit* FilterChips::addText(QHBoxLayout& line, const QString& name, const QS
             edit->setStyleSheet(take(edit->text().trimmed()) ? QString() : QStringLiteral("color: #d04040"));
         },
         edit);
+    connect(edit, &QLineEdit::returnPressed, popup_, [this, edit] {
+        if (edit->styleSheet().isEmpty()) popup_->close();
+    });
     line.addWidget(edit);
     return edit;
 }

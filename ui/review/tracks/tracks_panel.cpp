@@ -200,6 +200,7 @@ void TracksPanel::useFilter() {
     if (like != like_) {
         const bool ordered = like_.has_value();
         like_ = like;
+        from_the_top_ = like.has_value();
         setLikeness(nullptr);
         if (ordered != like.has_value()) orderByLikeness(like.has_value());
         commands_.want_likeness(like);
@@ -215,12 +216,17 @@ void TracksPanel::setLikeness(const std::shared_ptr<const LikenessByTrack>& like
     likeness_ = likeness;
     filterTracks();
     tracks_->setLikeness(likeness);  // tells that the query is another, too
+    if (likeness && std::exchange(from_the_top_, false)) table()->scrollToTop();
 }
 
 void TracksPanel::orderByLikeness(bool wanted) {
-    const QHeaderView* header = table()->horizontalHeader();
+    QHeaderView* header = table()->horizontalHeader();
     table()->setColumnHidden(TracksModel::like_column, !wanted);
     if (wanted) {
+        // The others may not all be in view.
+        const int from = header->visualIndex(TracksModel::like_column);
+        const int beside = header->visualIndex(TracksModel::id_column);
+        header->moveSection(from, from > beside ? beside + 1 : beside);
         order_before_like_ = {header->sortIndicatorSection(), header->sortIndicatorOrder()};
         table()->sortByColumn(TracksModel::like_column, Qt::DescendingOrder);
     } else if (header->sortIndicatorSection() == TracksModel::like_column) {

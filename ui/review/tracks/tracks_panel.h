@@ -106,6 +106,7 @@ class TracksPanel : public TablePanel {
     bool told_query_ = false;      ///< there was one
     std::optional<TrackId> like_;  ///< that was asked about
     LikenessChoice like_counts_;
+    bool from_the_top_ = false;                          ///< the list is to begin with the most like
     std::pair<int, Qt::SortOrder> order_before_like_{};  ///< column and order
     DelayedCall now_due_;
 };

@@ -19,6 +19,7 @@
 #include <algorithm>
 
 #include "widgets/empty_state.h"
+#include "widgets/tables/rows_view.h"
 #include "widgets/tables/table_look.h"
 #include "widgets/tables/table_roles.h"
 #include "widgets/tables/table_text.h"
@@ -42,7 +43,7 @@ TablePanel::TablePanel(QAbstractItemModel* model, const QString& settings_key, Q
       proxy_(new TableSortProxy(this)),
       filter_(new QLineEdit(this)),
       tool_row_(new QHBoxLayout),
-      table_(new QTableView(this)),
+      table_(new RowsView(this)),
       empty_(new EmptyState(this)),
       nothing_found_(new EmptyState(this)),
       stack_(new QStackedLayout),
@@ -94,6 +95,7 @@ void TablePanel::buildTable(std::optional<int> sort_column) {
     whenAny(proxy_, this, pause, &QAbstractItemModel::rowsAboutToBeRemoved, &QAbstractItemModel::modelAboutToBeReset);
     whenAny(proxy_, this, resume, &QAbstractItemModel::rowsRemoved, &QAbstractItemModel::modelReset);
     table_->setModel(proxy_);
+    all_columns_ = proxy_->columnCount();
     lookAsList(*table_);
     table_->setSortingEnabled(true);
     table_->sortByColumn(sort_column.value_or(-1), Qt::AscendingOrder);
@@ -428,7 +430,8 @@ void TablePanel::saveColumns() const {
     QVariantList widths;
     for (const int width : fitted_widths_) widths << width;
     QSettings().setValue(settings_key_ + kFittedKey, widths);
-    QSettings().setValue(settings_key_ + kKnownKey, proxy_->columnCount());
+    // The model may be gone by now, and its columns with it.
+    QSettings().setValue(settings_key_ + kKnownKey, all_columns_);
 }
 
 }  // namespace eyrie::ui

@@ -107,6 +107,7 @@ class TablePanel : public QWidget {
     QStackedLayout* stack_;
     QList<int> fitted_widths_;  ///< of a column with another width somebody chose it
     DelayedCall widening_due_;
+    int all_columns_ = 0;         ///< of the model
     int known_columns_ = 0;       ///< that the memory tells of
     bool columns_fit_ = false;    ///< widths were remembered, or fitted to the first rows
     int kept_id_ = 0;             ///< selected by user or program; selected again when its row comes back

@@ -1,5 +1,8 @@
 #include "window/docks/inspection_on_canvas.h"
 
+#include <QDockWidget>
+#include <algorithm>
+
 #include "canvas/layers/stages/image_stack_layer.h"
 #include "canvas/overlay_settings.h"
 #include "canvas/video_view.h"
@@ -10,6 +13,7 @@
 #include "tune/parameters/parameter_binding.h"
 #include "widgets/wiring.h"
 #include "window/docks/review_docks.h"
+#include "workspace/dock_registry.h"
 
 namespace eyrie::ui {
 
@@ -24,9 +28,16 @@ void joinInspection(const InspectionParts& parts) {
         const ReplayView& view = *inspection.view();
         canvas.setStacks(view.wish.frame, stackMarks(view));
     };
-    whenChanged(inspection, &canvas,
-                {{InspectionChange::choice, [&inspection, &canvas] { canvas.setInspectedArea(inspection.area()); }},
-                 {InspectionChange::view, show_stacks}});
+    // Where neither is open, as for operators, a box of the chain would only puzzle.
+    const QList<QDockWidget*> explaining{parts.docks.dock(DockId::stages), parts.docks.dock(DockId::stacks)};
+    const auto show_area = [&inspection, &canvas, explaining] {
+        const bool explained = std::any_of(explaining.begin(), explaining.end(),
+                                           [](const QDockWidget* dock) { return !dock->isHidden(); });
+        canvas.setInspectedArea(explained ? inspection.area() : std::nullopt);
+    };
+    whenChanged(inspection, &canvas, {{InspectionChange::choice, show_area}, {InspectionChange::view, show_stacks}});
+    for (const DockId dock : {DockId::stages, DockId::stacks})
+        parts.docks.watch(dock, &canvas, [show_area](bool /*visible*/) { show_area(); });
     const auto want_stacks = [&inspection, &overlays = parts.overlays] {
         inspection.wantStackOverlay(overlays.isVisible(ImageStackLayer::kKind));
     };

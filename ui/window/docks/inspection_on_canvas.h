@@ -4,6 +4,7 @@
 
 namespace eyrie::ui {
 
+class DockRegistry;
 class Inspection;
 class OverlaySettings;
 class ProjectSession;
@@ -16,12 +17,13 @@ struct InspectionParts {
     Inspection& inspection;
     VideoView& canvas;
     OverlaySettings& overlays;
+    DockRegistry& docks;
     ReviewDocks& review;
     std::function<void()> start_run;  ///< with the parameters as they stand in the form
 };
 
-/// Lets a click on the canvas choose what is looked into, shows there its search area and the image stacks, and does
-/// what the dock Stacks asks for.
+/// Lets a click on the canvas choose what is looked into, shows there its search area, while a dock explains it, and
+/// the image stacks, and does what the dock Stacks asks for.
 void joinInspection(const InspectionParts& parts);
 
 }  // namespace eyrie::ui

@@ -37,6 +37,7 @@ void RunHandover::enableActions() {
 
 void RunHandover::exportTracks() {
     ExportDialog dialog(trackExport(parts_.session), &parts_.window);
+    dialog.setFormat(QStringLiteral("tracks-csv"));  // what an operator hands over: times, metres, km/h and places
     dialog.exec();
 }
 

@@ -126,8 +126,9 @@ void LiveDialog::buildEnd() {
     addressEdited();
 }
 
-void LiveDialog::propose(const QString& address, const QString& project) {
+void LiveDialog::propose(const QString& address, const QString& project, double gsd_m_per_px) {
     address_->setText(address);
+    gsd_->setText(gsd_m_per_px > 0 ? QString::number(gsd_m_per_px, 'g', 6) : QString());
     project_->setText(project);
     address_->setFocus();
     address_->selectAll();

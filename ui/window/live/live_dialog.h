@@ -28,7 +28,7 @@ class LiveDialog : public QDialog {
     LiveDialog(LiveDialogCommands commands, QWidget* parent);
 
     /// What the fields hold at first; the recording's place follows from the project's.
-    void propose(const QString& address, const QString& project);
+    void propose(const QString& address, const QString& project, double gsd_m_per_px = 0);
     /// The source is waited for, or no longer.
     void setWaiting(bool waiting);
     /// It has answered, and its first pictures are looked at for a scale: how far that is.

@@ -33,8 +33,9 @@ LiveWatching::LiveWatching(const LiveParts& parts) : QObject(&parts.window), par
     });
 }
 
-void LiveWatching::ask(const QString& address) {
-    parts_.guard.beforeEnding(tr("a live source is watched"), [this, address] { openDialog(address); });
+void LiveWatching::ask(const QString& address, double gsd_m_per_px) {
+    parts_.guard.beforeEnding(tr("a live source is watched"),
+                              [this, address, gsd_m_per_px] { openDialog(address, gsd_m_per_px); });
 }
 
 QString LiveWatching::proposedProject() const {
@@ -46,7 +47,7 @@ QString LiveWatching::proposedProject() const {
     return folder + QLatin1Char('/') + QString::fromStdString(timedProjectName().string());
 }
 
-void LiveWatching::openDialog(const QString& address) {
+void LiveWatching::openDialog(const QString& address, double gsd_m_per_px) {
     if (dialog_) {
         dialog_->raise();
         return;
@@ -56,7 +57,7 @@ void LiveWatching::openDialog(const QString& address) {
                              &parts_.window);
     dialog_->setAttribute(Qt::WA_DeleteOnClose);
     dialog_->propose(address.isEmpty() ? parts_.settings.value(kAddress, QString()).toString() : address,
-                     proposedProject());
+                     proposedProject(), gsd_m_per_px);
     dialog_->open();
 }
 

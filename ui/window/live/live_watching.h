@@ -32,13 +32,14 @@ class LiveWatching : public QObject {
  public:
     explicit LiveWatching(const LiveParts& parts);
 
-    /// Opens the dialog, after asking what becomes of a run that works. An empty address: the one watched last.
-    void ask(const QString& address = {});
+    /// Opens the dialog, after asking what becomes of a run that works. An empty address: the one watched last;
+    /// `gsd_m_per_px` is what stands there at first, 0: nothing.
+    void ask(const QString& address = {}, double gsd_m_per_px = 0);
     /// Null while it is closed.
     LiveDialog* dialog() const { return dialog_; }
 
  private:
-    void openDialog(const QString& address);
+    void openDialog(const QString& address, double gsd_m_per_px);
     void watch(const LiveRequest& request);
     void endWaiting();
     QString proposedProject() const;
