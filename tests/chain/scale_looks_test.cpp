@@ -38,6 +38,7 @@ struct GreySource : test::MemorySource {
         : MemorySource(frames, {64, 48}, [](int) { return cv::Mat(48, 64, CV_8UC1, cv::Scalar(90)); }),
           broken(broken_from) {}
     Frame read(FrameIndex index, bool with_colour) override {
+        EXPECT_FALSE(with_colour) << "which takes its time";
         if (index >= broken) throw Error(ErrorKind::input, "broken");
         asked_for.push_back(index);
         return MemorySource::read(index, with_colour);
@@ -93,6 +94,15 @@ TEST(ScaleLooks, EndWithTheRangeOrTheVideo) {
     EXPECT_FALSE(lastOfLook(source, {20, 99}));
     EXPECT_FALSE(lastOfLook(source, {8, 7}));
     EXPECT_FALSE(lastOfLook(source, {-1, 7}));
+}
+
+TEST(ScaleLooks, BeginAtTheStartInTheMiddleAndSoThatTheyEndAtTheEnd) {
+    using Starts = std::array<FrameIndex, 3>;
+    EXPECT_EQ(startsOfLooks(0, 119, 40), (Starts{0, 40, 80}));
+    EXPECT_EQ(startsOfLooks(10, 149, 40), (Starts{10, 60, 110}));
+    EXPECT_EQ(startsOfLooks(0, 40, 40), (Starts{0, 0, 1}));
+    EXPECT_EQ(startsOfLooks(5, 44, 40), (Starts{5, 5, 5}));
+    EXPECT_EQ(startsOfLooks(5, 9, 40), (Starts{5, 5, 5})) << "a short one";
 }
 
 TEST(ScaleLooks, ForASlopeTakeTheStartTheMiddleAndTheEndOfAVideo) {

@@ -117,5 +117,60 @@ TEST(ScaleOutcomes, ChanceIsNoTraffic) {
     EXPECT_FALSE(estimateOfScale(outcomes)) << "nothing has a car's size";
 }
 
+/// Of a look at so many cars, which are seen under one assumption.
+std::vector<ScaleOutcome> lookAt(int assumption, double cars, double looks = 20) {
+    std::vector<ScaleOutcome> outcomes(kScaleAssumptions);
+    outcomes.at(static_cast<std::size_t>(assumption)) = {looks, looks, 5, cars, cars};
+    return outcomes;
+}
+
+TEST(LooksTogether, TenVehiclesAreEnoughInOneLookOrInSeveral) {
+    for (const auto& [first, second] : {std::pair(10, 0), {9, 0}, {5, 5}, {5, 4}, {9, 1}}) {
+        LooksTogether together;
+        EXPECT_FALSE(together.suffice());
+        together.add(lookAt(4, first));
+        if (second > 0) together.add(lookAt(4, second));
+        ASSERT_TRUE(together.estimate());
+        EXPECT_EQ(together.estimate()->vehicles, first + second);
+        EXPECT_EQ(together.suffice(), first + second >= 10) << first << " and " << second;
+    }
+}
+
+TEST(LooksTogether, TellWhatTheSumOfThemTells) {
+    LooksTogether together;
+    together.add(lookAt(4, 2));
+    EXPECT_NEAR(together.estimate()->gsd_m_per_px, assumedGsd(4), 1e-12);
+    together.add(lookAt(5, 2));
+    EXPECT_NEAR(together.estimate()->gsd_m_per_px, assumedGsd(4) * std::sqrt(1.4), 1e-12);
+    together.add(lookAt(8, 0));
+    EXPECT_NEAR(together.estimate()->gsd_m_per_px, assumedGsd(4) * std::sqrt(1.4), 1e-12) << "no traffic";
+}
+
+TEST(LooksTogether, ChanceDoesNotAddUpToTraffic) {
+    LooksTogether together;
+    for (int i = 0; i < 5; ++i) together.add(lookAt(4, 1, 7));
+    EXPECT_FALSE(together.estimate());
+    together.add(lookAt(2, 1, 8));
+    EXPECT_NEAR(together.estimate()->gsd_m_per_px, assumedGsd(2), 1e-12);
+}
+
+TEST(ViewOutcomes, TheBestIsOneThatShowsTrafficAndMostlyCars) {
+    // Tracks, and those of them that are as large as a car, of what else looks the same.
+    const auto view = [](double tracks, double cars, double decision = 5) {
+        return ScaleOutcome{20, 20, decision, tracks, cars};
+    };
+    EXPECT_EQ(bestOfViews({}), std::nullopt);
+    EXPECT_EQ(bestOfViews({view(1, 1)}), 0U);
+    EXPECT_EQ(bestOfViews({view(1, 0)}), std::nullopt) << "no car";
+    EXPECT_EQ(bestOfViews({view(2, 1)}), 0U);
+    EXPECT_EQ(bestOfViews({view(3, 1)}), std::nullopt) << "less than half of the tracks";
+    EXPECT_EQ(bestOfViews({view(10, 5)}), 0U);
+    EXPECT_EQ(bestOfViews({view(11, 5)}), std::nullopt);
+    EXPECT_EQ(bestOfViews({view(1, 1, -5)}), std::nullopt) << "surely none";
+    // Whatever comes before or after it.
+    EXPECT_EQ(bestOfViews({view(1, 1, 5), view(1, 0, 9), view(1, 1, 4), view(1, 1, 6), view(1, 1, 3)}), 3U);
+    EXPECT_EQ(bestOfViews({view(1, 1, 5), view(1, 1, 5)}), 0U);
+}
+
 }  // namespace
 }  // namespace eyrie::scale_outcomes_by_hand_test

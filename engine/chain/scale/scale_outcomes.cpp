@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <utility>
 
 #include "core/values/scene_scale.h"
@@ -23,7 +22,9 @@ constexpr std::pair kDrawn(0.1, 0.16);   ///< … and drawn to the scale that wo
 constexpr double kDrawnBy = 0.36;        ///< share of the logarithm: the doubt against a spread of .6 among videos
 /// Of the logarithm within one step of the assumptions.
 const double kStepVariance = std::log(kStep) * std::log(kStep) / 12;
-constexpr double kSure = 1.645;  ///< standard errors that hold 90 %
+constexpr double kSure = 1.645;      ///< standard errors that hold 90 %
+constexpr int kPlenty = 10;          ///< vehicles; where fewer drive, later frames are looked at, too
+constexpr double kMostlyCars = 0.5;  ///< share of a view's tracks that have to be as large as a car
 
 double partBelow(double share, const std::pair<double, double>& limits) {
     return std::clamp((limits.second - share) / (limits.second - limits.first), 0.0, 1.0);
@@ -85,6 +86,29 @@ std::optional<ScaleEstimate> estimateOfScale(const std::vector<ScaleOutcome>& ou
     const double own_error = kOwnError + partBelow(peak.alike(), kDoubted) * (kErrorInDoubt - kOwnError);
     estimate.uncertainty = std::exp(kSure * std::hypot(own_error, std::sqrt(spread / peak.cars)));
     return estimate;
+}
+
+void LooksTogether::add(const std::vector<ScaleOutcome>& outcomes) {
+    if (!estimateOfScale(outcomes)) return;
+    for (std::size_t i = 0; i < outcomes.size(); ++i) sums_[i] = sums_[i] + outcomes[i];
+    if (const auto estimate = estimateOfScale(sums_)) estimate_ = estimate;
+}
+
+bool LooksTogether::suffice() const {
+    return estimate_ && estimate_->vehicles >= kPlenty;
+}
+
+std::optional<std::size_t> bestOfViews(const std::vector<ScaleOutcome>& outcomes) {
+    std::optional<std::size_t> best;
+    double most = 0;
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+        const ScaleOutcome& outcome = outcomes[i];
+        if (!outcome.showsTraffic() || outcome.cars < kMostlyCars * outcome.tracks) continue;
+        if (outcome.score() <= most) continue;
+        most = outcome.score();
+        best = i;
+    }
+    return best;
 }
 
 }  // namespace eyrie
