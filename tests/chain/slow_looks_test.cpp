@@ -114,4 +114,19 @@ TEST(SlowLooks, ForAViewAskInEveryFrameFromTheThirteenthOnAboutAnyScale) {
     for (const Stretch& stretch : look.stretches) EXPECT_EQ(stretch.count, 40);
 }
 
+TEST(SlowLooks, ForAViewTakeStretchesAsOneWhereTheyTouch) {
+    const auto stretches = [](int frames) {
+        test::MemorySource source(frames, {64, 48}, [](int) { return cv::Mat(48, 64, CV_8UC1, cv::Scalar(90)); });
+        std::vector<std::pair<int, int>> found;
+        for (const Stretch& stretch : lookForView(source, {}, {}, 25, {}).stretches)
+            found.emplace_back(stretch.first, stretch.count);
+        return found;
+    };
+    using Stretches = std::vector<std::pair<int, int>>;
+    EXPECT_EQ(stretches(41), (Stretches{{0, 41}}));
+    EXPECT_EQ(stretches(120), (Stretches{{0, 120}}));
+    EXPECT_EQ(stretches(121), (Stretches{{0, 80}, {81, 40}}));
+    EXPECT_EQ(stretches(122), (Stretches{{0, 40}, {41, 40}, {82, 40}}));
+}
+
 }  // namespace eyrie::slow_looks_test
