@@ -122,6 +122,28 @@ TEST(ChainRun, runningTheHalvesSideBySideChangesNothing) {
     }
 }
 
+TEST(ChainRun, clusteringCanBeLookedAtOnceMoreWhereItTookPlace) {
+    test::MovingScene scene;
+    scene.frames = 12;
+    for (const bool differences : {false, true}) {
+        ChainOptions options;
+        if (differences) options.difference.method = MotionMethod::two_frame_difference;
+        test::MemorySource source(scene);
+        MotionHalf motion_half(options, scale());
+        TrackHalf track_half(options, scale());
+        FrameResult result;
+        for (int frame = 0; frame < scene.frames; ++frame) {
+            const Frame read = source.read(frame, false);
+            StageTimes times{};
+            result = track_half.next(read, motion_half.next(read, times), times);
+        }
+        ASSERT_FALSE(result.clusters.empty());
+        const ClusteringTrace trace = track_half.clustering(result.motion);
+        EXPECT_EQ(trace.groups.empty(), differences);
+        EXPECT_EQ(track_half.differences() != nullptr, differences);
+    }
+}
+
 TEST(ChainRun, stopsWhenAskedAndKeepsWhatIsDone) {
     const test::MovingScene scene;
     test::MemorySource source(scene);

@@ -49,6 +49,25 @@ TEST(ParameterStage, SignaturesChangeFromTheFirstStageOn) {
     EXPECT_NE(preparationSignature(options), preparationSignature(changed));
 }
 
+TEST(ParameterStage, SignaturesNameEveryParameterThatCounts) {
+    ChainOptions options;
+    const std::string middle = signatureOf(options, ChainStage::clustering, ChainStage::removal);
+    const std::string beginning = signatureUpTo(options, ChainStage::stacking);
+    const std::string prepared = preparationSignature(options), areas = areaSignature(options);
+    for (const Parameter& parameter : listParameters(describeOf(options))) {
+        const ChainStage stage = parameter.effect.stage;
+        const auto isIn = [&](const std::string& signature) {
+            return ("\n" + signature).find("\n" + parameter.name + "=" + parameter.value + "\n") != std::string::npos;
+        };
+        EXPECT_EQ(isIn(middle), stage >= ChainStage::clustering && stage <= ChainStage::removal) << parameter.name;
+        EXPECT_EQ(isIn(beginning), stage <= ChainStage::stacking) << parameter.name;
+        const bool moves = stage == ChainStage::registration || stage == ChainStage::motion;
+        EXPECT_EQ(isIn(areas), moves || stage == ChainStage::detection) << parameter.name;
+        EXPECT_EQ(isIn(prepared), moves || (stage == ChainStage::detection && !parameter.effect.decision_only))
+            << parameter.name;
+    }
+}
+
 TEST(ParameterStage, TheFirstDifferenceIsThatOfTheEarliestStage) {
     ChainOptions a;
     ChainOptions b;

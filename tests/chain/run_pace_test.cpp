@@ -40,6 +40,7 @@ struct KeepsStates : ChainObserver {
     void onState(const ChainState& state) override {
         EXPECT_EQ(state.last_done, last_seen) << "after the frame's own results";
         EXPECT_FALSE(state.bytes.empty());
+        if (kept.empty()) first_after = std::chrono::steady_clock::now() - begin;
         kept.push_back(state.last_done);
         std::this_thread::sleep_for(takes);
     }
@@ -47,6 +48,8 @@ struct KeepsStates : ChainObserver {
     std::chrono::milliseconds takes{0};
     FrameIndex last_seen = -1;
     std::vector<FrameIndex> kept;
+    std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
+    std::chrono::duration<double> first_after{0};
 };
 
 int keptIn(GreyPictures& source, KeepsStates& observer, RunSummary* summary = nullptr) {
@@ -132,6 +135,7 @@ TEST(RunPace, OfAShortRunAStateIsKeptAfterAFifthOfTheTimeBetweenStates) {
     const int kept = keptIn(source, observer, &summary);
     ASSERT_GE(kept, 1) << "the run takes 0.32 s at least, and the first state is kept after 0.2 s";
     EXPECT_LE(kept, 1 + static_cast<int>(summary.seconds));
+    EXPECT_GE(observer.first_after.count(), 0.2);
     GreyPictures few(6);
     KeepsStates never(StateKeeping{1000, 1}), not_asked(std::nullopt);
     EXPECT_EQ(keptIn(few, never), 0);
@@ -148,6 +152,32 @@ TEST(RunPace, KeepingStatesTakesItsShareOfTheTimeAtMost) {
     const int kept = keptIn(source, seldom, &summary);
     EXPECT_GE(kept, 2);
     EXPECT_LE(kept, 2 + summary.seconds / 0.12) << "12 ms are a tenth of 120 ms";
+}
+
+TEST(RunPace, AStateIsKeptWhereARunStopsUnlessNothingIsDoneOrNobodyAsks) {
+    const auto keptWhenStopped = [](int after, std::optional<StateKeeping> how) {
+        struct Stops : KeepsStates {
+            using KeepsStates::KeepsStates;
+            void onFrame(const std::shared_ptr<const FrameResult>& result, const Frame& frame) override {
+                KeepsStates::onFrame(result, frame);
+                if (result->motion.frame + 1 == after) stop.request_stop();
+            }
+            int after = 0;
+            std::stop_source stop;
+        } observer(how);
+        observer.after = after;
+        if (after == 0) observer.stop.request_stop();
+        GreyPictures source(20);
+        const RunSummary done = ChainRun({}, kScale).run(source, {}, observer, observer.stop.get_token());
+        EXPECT_EQ(done.outcome, after < 20 ? RunOutcome::stopped : RunOutcome::finished);
+        EXPECT_EQ(done.frames_done, after);
+        return observer.kept;
+    };
+    constexpr StateKeeping kSeldom{1000, 1};
+    EXPECT_EQ(keptWhenStopped(3, kSeldom), std::vector<FrameIndex>{2});
+    EXPECT_EQ(keptWhenStopped(3, std::nullopt), std::vector<FrameIndex>{});
+    EXPECT_EQ(keptWhenStopped(0, kSeldom), std::vector<FrameIndex>{});
+    EXPECT_EQ(keptWhenStopped(20, kSeldom), std::vector<FrameIndex>{}) << "it is finished";
 }
 
 TEST(RunPace, NothingIsLookedForInAPictureThatALiveSourceRepeats) {

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <opencv2/imgcodecs.hpp>
 #include <random>
+#include <regex>
 
 #include "chain/recording/chain_state.h"
 #include "chain/recording/run_recorder.h"
@@ -217,6 +219,49 @@ TEST_F(StoppedRun, CountsOnFromItsFrames) {
     EXPECT_EQ(resumed.summary.outcome, RunOutcome::finished);
 }
 
+TEST_F(StoppedRun, GoesOnAfterItsFirstFrameAndCountsTheLastOne) {
+    begin(stopped, {}, 1);
+    const Resumed second = resume(stopped, 2, 25);
+    EXPECT_EQ(second.restart, RestartReason::none);
+    EXPECT_EQ(second.last_done, 0);
+    EXPECT_EQ(second.summary.unregistered_frames, 1) << "the blank one, which is the last";
+    EXPECT_EQ(resume(stopped, 2, 1).summary.unregistered_frames, 1);
+}
+
+TEST_F(StoppedRun, OfPicturesInAFolderSaysWhichOneHasChanged) {
+    const auto draw = [&](int brighter) {
+        for (int frame = 0; frame < 14; ++frame) {
+            const cv::Mat drawn = picture(scene(), frame) + cv::Scalar(brighter);
+            cv::imwrite((folder / ("clip/picture" + std::to_string(100 + frame) + ".png")).string(), drawn);
+        }
+    };
+    std::filesystem::create_directory(folder / "clip");
+    draw(0);
+    SourceOptions rate;
+    rate.frame_rate_hz = 25;
+    const Path project = folder / "folder.eyrie";
+    {
+        const auto source = openSource(folder / "clip", rate);
+        const SceneScale scale = sceneScale(source->info(), 0.2);
+        Watcher watcher(10);
+        RunRecorder recorder(project, plannedRun(source->info(), scale, {}, "default"), {}, &watcher);
+        recorder.finish(ChainRun({}, scale).run(*source, {}, recorder, watcher.stop.get_token()));
+        EXPECT_EQ(resumedRun(project, 1, *source).last_done, 9);
+    }
+    draw(1);
+    const auto source = openSource(folder / "clip", rate);
+    try {
+        resumedRun(project, 1, *source);
+        FAIL() << "other pictures";
+    } catch (const Error& error) {
+        const std::string told = error.what();
+        std::smatch match;
+        ASSERT_TRUE(std::regex_search(told, match, std::regex("frame (\\d+) \\(picture1(\\d\\d)[.]png\\) shows")))
+            << told;
+        EXPECT_EQ(std::stoi(match[1]), std::stoi(match[2]));
+    }
+}
+
 TEST_F(StoppedRun, OfARangeEndsWithTheRange) {
     begin(whole, {}, kToTheEnd, {5, 40});
     begin(stopped, {}, 9, {5, 40});
@@ -318,7 +363,7 @@ TEST_F(StoppedRun, RefusesAnotherVideo) {
     EXPECT_THAT(refusal(kFrames + 1, scene().size, same), HasSubstr("47 frames now, 46 then"));
     EXPECT_THAT(refusal(kFrames, {640, 480}, same), HasSubstr("640×480 px now, 320×240 px then"));
     const auto brighter = [](int frame) -> cv::Mat { return picture(scene(), frame) + cv::Scalar(1); };
-    EXPECT_THAT(refusal(kFrames, scene().size, brighter), HasSubstr("shows something else"));
+    EXPECT_THAT(refusal(kFrames, scene().size, brighter), testing::ContainsRegex("frame [0-9]+ shows something else"));
     EXPECT_EQ(test::rowsOf(stopped, 1), before) << "what was done stays";
 }
 

@@ -28,6 +28,7 @@ class PartWithoutScale : public FrameSource {
         return frame;
     }
     std::int64_t timeOf(FrameIndex index) const override { return source_.timeOf(index); }
+    void forgetRate() { info_.frame_rate_assumed = true; }
 
  private:
     FrameSource& source_;
@@ -84,6 +85,15 @@ TEST(ScaleEstimation, findsTheScaleOfARenderedSceneAndIsWideWhereFewVehiclesDriv
     EXPECT_NEAR(estimate->gsd_m_per_px, truth, kAllowed * truth);
     EXPECT_LT(estimate->vehicles, 5);
     EXPECT_GT(estimate->uncertainty, 1.3);
+}
+
+TEST(ScaleEstimation, speedsSayNothingWhereNobodyKnowsTheFrameRate) {
+    const auto scene = openScene("stops");
+    PartWithoutScale part(*scene, {0, 0, 200, 300});
+    const auto look = [&] { return chooseScale(part, kBeginning, fromAbove(), {}, {}).estimate.value(); };
+    const ScaleEstimate by_speeds_too = look();
+    part.forgetRate();
+    EXPECT_GT(look().uncertainty, by_speeds_too.uncertainty);
 }
 
 TEST(ScaleEstimation, lampsAndBeamsOfANightAreNoTraffic) {

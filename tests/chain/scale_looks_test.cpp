@@ -38,6 +38,7 @@ struct GreySource : test::MemorySource {
         : MemorySource(frames, {64, 48}, [](int) { return cv::Mat(48, 64, CV_8UC1, cv::Scalar(90)); }),
           broken(broken_from) {}
     Frame read(FrameIndex index, bool with_colour) override {
+        EXPECT_FALSE(with_colour) << "which takes its time";
         if (index >= broken) throw Error(ErrorKind::input, "broken");
         asked_for.push_back(index);
         return MemorySource::read(index, with_colour);
@@ -93,6 +94,15 @@ TEST(ScaleLooks, EndWithTheRangeOrTheVideo) {
     EXPECT_FALSE(lastOfLook(source, {20, 99}));
     EXPECT_FALSE(lastOfLook(source, {8, 7}));
     EXPECT_FALSE(lastOfLook(source, {-1, 7}));
+}
+
+TEST(ScaleLooks, BeginAtTheStartInTheMiddleAndSoThatTheyEndAtTheEnd) {
+    using Starts = std::array<FrameIndex, 3>;
+    EXPECT_EQ(startsOfLooks(0, 119, 40), (Starts{0, 40, 80}));
+    EXPECT_EQ(startsOfLooks(10, 149, 40), (Starts{10, 60, 110}));
+    EXPECT_EQ(startsOfLooks(0, 40, 40), (Starts{0, 0, 1}));
+    EXPECT_EQ(startsOfLooks(5, 44, 40), (Starts{5, 5, 5}));
+    EXPECT_EQ(startsOfLooks(5, 9, 40), (Starts{5, 5, 5})) << "a short one";
 }
 
 TEST(ScaleLooks, ForASlopeTakeTheStartTheMiddleAndTheEndOfAVideo) {
@@ -178,7 +188,10 @@ TEST(ScaleLooks, CountWhatTheChainFindsAndTracksThatHaveSettled) {
     };
     Chain chain(options, scale);
     double detections = 0, whole = 0, decision = 0;
-    std::map<TrackId, std::pair<std::vector<double>, std::vector<double>>> sizes;
+    struct Seen {
+        std::vector<double> lengths, widths, speeds;
+    };
+    std::map<TrackId, Seen> seen;
     for (int i = 0; i < 30; ++i) {
         const FrameResult result = chain.next(source.read(i, false));
         for (const Detection& detection : result.detections) {
@@ -188,15 +201,19 @@ TEST(ScaleLooks, CountWhatTheChainFindsAndTracksThatHaveSettled) {
         }
         for (const auto& track : result.tracks) {
             if (i < 14 || track.status != TrackStatus::confirmed) continue;
-            sizes[track.id].first.push_back(0.2 * track.box.length);
-            sizes[track.id].second.push_back(0.2 * track.box.width);
+            seen[track.id].lengths.push_back(0.2 * track.box.length);
+            seen[track.id].widths.push_back(0.2 * track.box.width);
+            seen[track.id].speeds.push_back(0.2 * 25 * std::hypot(track.velocity.x, track.velocity.y));
         }
     }
     double tracks = 0, cars = 0;
-    for (const auto& [id, of_track] : sizes) {
-        if (of_track.first.size() < 8) continue;
+    std::vector<double> speeds;
+    for (const auto& [id, of_track] : seen) {
+        if (of_track.lengths.size() < 8) continue;
         ++tracks;
-        cars += isCarSized(medianOf(of_track.first), medianOf(of_track.second));
+        if (!isCarSized(medianOf(of_track.lengths), medianOf(of_track.widths))) continue;
+        ++cars;
+        speeds.push_back(medianOf(of_track.speeds));
     }
     const ScaleOutcome outcome = outcomeOf(30);
     EXPECT_GT(outcome.detections, 10);
@@ -205,6 +222,10 @@ TEST(ScaleLooks, CountWhatTheChainFindsAndTracksThatHaveSettled) {
     EXPECT_NEAR(outcome.decision, decision, 1e-9);
     EXPECT_EQ(outcome.tracks, tracks);
     EXPECT_EQ(outcome.cars, cars);
+    ASSERT_EQ(outcome.car_speeds_m_s.size(), speeds.size());
+    ASSERT_FALSE(speeds.empty());
+    for (std::size_t i = 0; i < speeds.size(); ++i) EXPECT_NEAR(outcome.car_speeds_m_s[i], speeds[i], 1e-9);
+    EXPECT_GT(speeds.front(), 2);
     EXPECT_GE(outcome.tracks, 1);
     EXPECT_GE(outcomeOf(22).tracks, 1) << "eight frames from the fifteenth on";
     EXPECT_EQ(outcomeOf(21).tracks, 0);

@@ -34,6 +34,10 @@ TEST(ScaleOutcomes, ScoreIsOfWhatLooksLikeVehiclesAndLittleElse) {
     EXPECT_EQ(both.decision, 9);
     EXPECT_EQ(both.tracks, 7);
     EXPECT_EQ(both.cars, 7);
+    ScaleOutcome slow, fast;
+    slow.car_speeds_m_s = {3, 4};
+    fast.car_speeds_m_s = {20};
+    EXPECT_EQ((slow + fast).car_speeds_m_s, (std::vector<double>{3, 4, 20}));
 }
 
 TEST(ScaleOutcomes, EightLooksAndACarAreTraffic) {
@@ -78,13 +82,36 @@ TEST(ScaleOutcomes, WhereLittleLooksLikeVehiclesTheAssumedScaleHasASay) {
     const double assumed = 0.25 / 0.056;
     const struct {
         double detections, doubt, drawn;
-    } cases[] = {{24, 0, 0},  {80, 0, 0},          {96, 0.5, 0}, {120, 1, 0},
-                 {150, 1, 0}, {24 / 0.13, 1, 0.5}, {240, 1, 1},  {999, 1, 1}};
+    } cases[] = {{24, 0, 0},  {24 / 0.45, 0, 0},   {24 / 0.325, 0.5, 0}, {120, 1, 0},
+                 {150, 1, 0}, {24 / 0.13, 1, 0.5}, {240, 1, 1},          {999, 1, 1}};
     for (const auto& one : cases) {
         EXPECT_NEAR(found(one.detections).gsd_m_per_px, 0.056 * std::pow(assumed, 0.36 * one.drawn), 1e-9)
             << one.detections;
         const double own = 0.11 + one.doubt * (0.45 - 0.11);
         EXPECT_NEAR(found(one.detections).uncertainty, std::exp(1.645 * std::sqrt(own * own + of_a_step)), 1e-9);
+    }
+}
+
+TEST(ScaleOutcomes, SpeedsSayTheMoreTheLessSureSizesAre) {
+    // Of four cars that are seen at .056 m/px the fastest quarter drives at twice the 11 m/s of towns: .028 m/px.
+    const auto found = [](double detections, const std::vector<double>& speeds) {
+        std::vector<ScaleOutcome> outcomes(kScaleAssumptions);
+        outcomes.at(1) = {detections, 24, 200, 4, 4, speeds};
+        outcomes.at(3).car_speeds_m_s = {99, 99, 99, 99};  // of an assumption that says nothing
+        return estimateOfScale(outcomes).value();
+    };
+    for (const auto& [detections, doubt] : {std::pair(24.0, 0.0), {80, 0.6}, {120, 1}}) {
+        const double own = 0.11 + doubt * (0.45 - 0.11);
+        const double of_sizes = own * own + std::pow(std::log(1.4), 2) / 12 / 4;
+        const double pull = of_sizes / (of_sizes + 0.45 * 0.45);
+        const ScaleEstimate told = found(detections, {30, 5, 22, 10});
+        EXPECT_NEAR(told.gsd_m_per_px, 0.056 * std::pow(0.5, pull), 1e-9) << detections;
+        EXPECT_NEAR(told.uncertainty, std::exp(1.645 * std::sqrt(pull) * 0.45), 1e-9) << detections;
+        EXPECT_LT(told.uncertainty, found(detections, {}).uncertainty);
+        EXPECT_NEAR(found(detections, {11, 11, 11, 11}).gsd_m_per_px, 0.056, 1e-9) << "as in towns";
+        EXPECT_GT(found(detections, {2, 2, 2, 2}).gsd_m_per_px, 0.056) << "slow ones are farther away than they seem";
+        for (const std::vector<double>& nothing : {std::vector<double>{}, {0, 0, 0, 0}})
+            EXPECT_NEAR(found(detections, nothing).gsd_m_per_px, 0.056, 1e-9);
     }
 }
 
@@ -115,6 +142,61 @@ TEST(ScaleOutcomes, ChanceIsNoTraffic) {
     EXPECT_TRUE(estimateOfScale(outcomes));
     outcomes[4].cars = 0;
     EXPECT_FALSE(estimateOfScale(outcomes)) << "nothing has a car's size";
+}
+
+/// Of a look at so many cars, which are seen under one assumption.
+std::vector<ScaleOutcome> lookAt(int assumption, double cars, double looks = 20) {
+    std::vector<ScaleOutcome> outcomes(kScaleAssumptions);
+    outcomes.at(static_cast<std::size_t>(assumption)) = {looks, looks, 5, cars, cars};
+    return outcomes;
+}
+
+TEST(LooksTogether, TenVehiclesAreEnoughInOneLookOrInSeveral) {
+    for (const auto& [first, second] : {std::pair(10, 0), {9, 0}, {5, 5}, {5, 4}, {9, 1}}) {
+        LooksTogether together;
+        EXPECT_FALSE(together.suffice());
+        together.add(lookAt(4, first));
+        if (second > 0) together.add(lookAt(4, second));
+        ASSERT_TRUE(together.estimate());
+        EXPECT_EQ(together.estimate()->vehicles, first + second);
+        EXPECT_EQ(together.suffice(), first + second >= 10) << first << " and " << second;
+    }
+}
+
+TEST(LooksTogether, TellWhatTheSumOfThemTells) {
+    LooksTogether together;
+    together.add(lookAt(4, 2));
+    EXPECT_NEAR(together.estimate()->gsd_m_per_px, assumedGsd(4), 1e-12);
+    together.add(lookAt(5, 2));
+    EXPECT_NEAR(together.estimate()->gsd_m_per_px, assumedGsd(4) * std::sqrt(1.4), 1e-12);
+    together.add(lookAt(8, 0));
+    EXPECT_NEAR(together.estimate()->gsd_m_per_px, assumedGsd(4) * std::sqrt(1.4), 1e-12) << "no traffic";
+}
+
+TEST(LooksTogether, ChanceDoesNotAddUpToTraffic) {
+    LooksTogether together;
+    for (int i = 0; i < 5; ++i) together.add(lookAt(4, 1, 7));
+    EXPECT_FALSE(together.estimate());
+    together.add(lookAt(2, 1, 8));
+    EXPECT_NEAR(together.estimate()->gsd_m_per_px, assumedGsd(2), 1e-12);
+}
+
+TEST(ViewOutcomes, TheBestIsOneThatShowsTrafficAndMostlyCars) {
+    // Tracks, and those of them that are as large as a car, of what else looks the same.
+    const auto view = [](double tracks, double cars, double decision = 5) {
+        return ScaleOutcome{20, 20, decision, tracks, cars};
+    };
+    EXPECT_EQ(bestOfViews({}), std::nullopt);
+    EXPECT_EQ(bestOfViews({view(1, 1)}), 0U);
+    EXPECT_EQ(bestOfViews({view(1, 0)}), std::nullopt) << "no car";
+    EXPECT_EQ(bestOfViews({view(2, 1)}), 0U);
+    EXPECT_EQ(bestOfViews({view(3, 1)}), std::nullopt) << "less than half of the tracks";
+    EXPECT_EQ(bestOfViews({view(10, 5)}), 0U);
+    EXPECT_EQ(bestOfViews({view(11, 5)}), std::nullopt);
+    EXPECT_EQ(bestOfViews({view(1, 1, -5)}), std::nullopt) << "surely none";
+    // Whatever comes before or after it.
+    EXPECT_EQ(bestOfViews({view(1, 1, 5), view(1, 0, 9), view(1, 1, 4), view(1, 1, 6), view(1, 1, 3)}), 3U);
+    EXPECT_EQ(bestOfViews({view(1, 1, 5), view(1, 1, 5)}), 0U);
 }
 
 }  // namespace

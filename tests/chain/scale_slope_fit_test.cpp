@@ -101,6 +101,13 @@ TEST(ScaleSlopeFit, AHorizonThatLeansIsBelievedReluctantly) {
     EXPECT_NEAR(fitOf(0.3, 0, 40).right_per_px, 0.25 / 500, 1e-9) << "a step less than the votes say";
 }
 
+TEST(ScaleSlopeFit, StrongerGrowthsAreNotLookedFor) {
+    for (const double sign : {-1.0, 1.0}) {
+        EXPECT_NEAR(fitOf(0, 0.98 * sign, 400).down_per_px, 0.9 * sign / 300, 1e-9);
+        EXPECT_NEAR(fitOf(0.5 * sign, 0, 400).right_per_px, 0.3 * sign / 500, 1e-9);
+    }
+}
+
 TEST(ScaleSlopeFit, FewVotesOrVotesInOnePlaceTellNoSlope) {
     EXPECT_TRUE(fitSlope({}, kImage, kGsd, CameraSlope(kImage)).isFlat());
     EXPECT_TRUE(fitSlope(votesUnder(0, 0.002, 11), kImage, kGsd, CameraSlope(kImage)).isFlat());

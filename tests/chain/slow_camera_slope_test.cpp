@@ -173,6 +173,7 @@ TEST(SlowCameraSlope, FlightsSayOfEachGrowthWhatTheDescriptionSays) {
         const double between = growths()[40] * 0.25 + growths()[41] * 0.75;
         EXPECT_NEAR(slope.cost(between), slope.cost(growths()[40]) * 0.25 + slope.cost(growths()[41]) * 0.75, 1e-9);
         EXPECT_EQ(slope.cost(-3), slope.cost(-0.9));
+        for (const double beyond : {4.3, 5.0, 9.0}) EXPECT_EQ(slope.cost(beyond), slope.cost(growths().back()));
         (*std::max_element(slow.begin(), slow.end()) > 0 ? told : nothing)++;
     }
     EXPECT_GE(told, 2);

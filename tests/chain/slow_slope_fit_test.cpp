@@ -128,6 +128,18 @@ TEST(SlowSlopeFit, ASlopeIsTheCheapestOfAllAndSavesEnough) {
     EXPECT_GT(sloped, 15);
 }
 
+/// How many views are told, which have to be those of the slow fit.
+std::size_t comparedViews(const std::vector<ScaleVote>& votes) {
+    const auto slow = slowViews(votes), found = fitView(votes, kImage, CameraSlope(kImage));
+    EXPECT_EQ(found.size(), slow.size());
+    for (std::size_t k = 0; k < std::min(slow.size(), found.size()); ++k) {
+        EXPECT_NEAR(found[k].gsd_m_per_px, slow[k].gsd_m_per_px, 1e-9);
+        EXPECT_NEAR(found[k].slope.down_per_px, slow[k].slope.down_per_px, 1e-12);
+        EXPECT_EQ(found[k].slope.right_per_px, 0);
+    }
+    return slow.size();
+}
+
 TEST(SlowSlopeFit, ViewsAreTheCheapestAndThoseAboutAsGood) {
     std::mt19937 random(9);
     std::vector<int> by_number(4, 0);
@@ -135,19 +147,25 @@ TEST(SlowSlopeFit, ViewsAreTheCheapestAndThoseAboutAsGood) {
         const double down = std::array{0.0, 0.3, 0.6, 0.9, 1.4, 2.2}[std::size_t(i % 6)];
         const int count = i % 8 == 7 ? 500 : 18 + 5 * (i % 9);
         auto votes =
-            votesUnder(std::array{0.011, 0.05, 0.2, 0.9}[std::size_t(i % 4)], 0, down, count, 0.08 * (i % 5), random);
+            votesUnder(std::array{0.011, 0.05, 0.2, 1.3}[std::size_t(i % 4)], 0, down, count, 0.08 * (i % 5), random);
         // A view is told by what is below its horizon.
         std::erase_if(votes, [](const ScaleVote& vote) { return vote.place.y < 200; });
-        const auto slow = slowViews(votes), found = fitView(votes, kImage, CameraSlope(kImage));
-        ASSERT_EQ(found.size(), slow.size()) << i;
-        ++by_number[slow.size()];
-        for (std::size_t k = 0; k < slow.size(); ++k) {
-            EXPECT_NEAR(found[k].gsd_m_per_px, slow[k].gsd_m_per_px, 1e-9) << i;
-            EXPECT_NEAR(found[k].slope.down_per_px, slow[k].slope.down_per_px, 1e-12) << i;
-            EXPECT_EQ(found[k].slope.right_per_px, 0);
-        }
+        SCOPED_TRACE(i);
+        ++by_number[comparedViews(votes)];
     }
     EXPECT_GE(*std::min_element(by_number.begin(), by_number.end()), 2) << testing::PrintToString(by_number);
+}
+
+TEST(SlowSlopeFit, TheSteepestViewGrowsByFourFromTheMiddleToTheLowerEdge) {
+    std::mt19937 random(11);
+    for (const double down : {2.5, 3.2, 6.0}) {
+        SCOPED_TRACE(down);
+        auto votes = votesUnder(0.2, 0, down, 150, 0, random);
+        std::erase_if(votes, [](const ScaleVote& vote) { return vote.place.y < 290; });
+        EXPECT_GE(comparedViews(votes), 1U);
+        if (down < 5) continue;
+        EXPECT_NEAR(fitView(votes, kImage, CameraSlope(kImage)).front().slope.down_per_px * 300, 3.8, 0.05);
+    }
 }
 
 }  // namespace eyrie::slow_slope_fit_test

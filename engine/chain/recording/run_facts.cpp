@@ -12,7 +12,7 @@ NothingFollowed firstGap(const RunCounts& counts, int frames_needed) {
     if (counts.frames == 0) return NothingFollowed::no_frames;
     if (counts.frames < frames_needed) return NothingFollowed::too_few_frames;
     // The first frame has nothing to be registered onto.
-    if (counts.unregistered > 0 && counts.unregistered >= counts.frames - 1) return NothingFollowed::not_registered;
+    if (counts.unregistered >= counts.frames - 1) return NothingFollowed::not_registered;
     if (!counts.any_detection)
         return counts.motion_vectors == 0 ? NothingFollowed::no_motion : NothingFollowed::no_detections;
     if (counts.detections == 0) return NothingFollowed::all_rejected;

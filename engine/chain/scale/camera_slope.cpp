@@ -102,8 +102,9 @@ class PlaneCamera {
             off.push_back(focal_length_ * there.x() / there.z() - seen.to[i].x());
             off.push_back(focal_length_ * there.y() / there.z() - seen.to[i].y());
         }
-        const double weight = std::sqrt(2 * kIndependentPlaces / std::max<double>(1, static_cast<double>(off.size()))) /
-                              (kOff * pixel_ * std::sqrt(steps));
+        // The lower half of the grid is never beyond the horizon.
+        const double weight =
+            std::sqrt(2 * kIndependentPlaces / static_cast<double>(off.size())) / (kOff * pixel_ * std::sqrt(steps));
         Eigen::VectorXd all(static_cast<Eigen::Index>(off.size()) + 2);
         for (std::size_t i = 0; i < off.size(); ++i) all[static_cast<Eigen::Index>(i)] = weight * off[i];
         all.tail<2>() = turn.head<2>() / (kTurnSpread * steps);

@@ -20,8 +20,6 @@
 namespace eyrie {
 namespace {
 
-constexpr int kPlenty = 10;  ///< vehicles; where fewer drive, later frames are looked at, too
-
 /// Why nobody can say what is a vehicle; empty where the classifier is there.
 std::string missingClassifier(const ChainOptions& options, const SceneScale& scale) {
     try {
@@ -101,26 +99,18 @@ std::optional<ScaleEstimate> estimateMiddle(FrameSource& source, FrameRange rang
     const std::optional<FrameIndex> last_of_look = lastOfLook(source, range);
     if (!last_of_look) return std::nullopt;
     const FrameIndex last = *last_of_look;
-    const FrameIndex farthest = std::max(range.first, last - kFramesOfLook + 1);
     FrameIndex looked_to = range.first - 1;
-    std::vector<ScaleOutcome> together(kScaleAssumptions);
-    std::optional<ScaleEstimate> found;
-    for (const FrameIndex first : {range.first, range.first + (farthest - range.first) / 2, farthest}) {
-        if (first <= looked_to || stop.stop_requested()) continue;
+    LooksTogether together;
+    for (const FrameIndex first : startsOfLooks(range.first, last, kFramesOfLook)) {
+        if (first <= looked_to || together.suffice() || stop.stop_requested()) continue;
         looked_to = first + kFramesOfLook - 1;
         auto outcomes = outcomesOf(source, first, last, options, frame_rate_hz, stop, told);
         if (source.info().frame_rate_assumed) {
             for (ScaleOutcome& outcome : outcomes) outcome.car_speeds_m_s.clear();
         }
-        // What looks like a vehicle by chance must not add up to traffic.
-        if (outcomes.empty() || !estimateOfScale(outcomes)) continue;
-        for (std::size_t i = 0; i < outcomes.size(); ++i) together[i] = together[i] + outcomes[i];
-        const auto estimate = estimateOfScale(together);
-        if (!estimate) continue;
-        found = estimate;
-        if (estimate->vehicles >= kPlenty) break;
+        if (!outcomes.empty()) together.add(outcomes);
     }
-    return found;
+    return together.estimate();
 }
 
 }  // namespace

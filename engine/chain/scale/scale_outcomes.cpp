@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <utility>
 
 #include "core/robust_statistics.h"
@@ -27,7 +26,9 @@ constexpr double kTownSpeed = 11;         ///< m/s of the slowest of those
 constexpr double kSpeedError = 0.45;      ///< standard error of its logarithm: between a jam and a motorway
 /// Of the logarithm within one step of the assumptions.
 const double kStepVariance = std::log(kStep) * std::log(kStep) / 12;
-constexpr double kSure = 1.645;  ///< standard errors that hold 90 %
+constexpr double kSure = 1.645;      ///< standard errors that hold 90 %
+constexpr int kPlenty = 10;          ///< vehicles; where fewer drive, later frames are looked at, too
+constexpr double kMostlyCars = 0.5;  ///< share of a view's tracks that have to be as large as a car
 
 /// A logarithm that is known so well.
 struct LogOfScale {
@@ -111,6 +112,29 @@ std::optional<ScaleEstimate> estimateOfScale(const std::vector<ScaleOutcome>& ou
     }
     return ScaleEstimate{std::exp(scale.value), std::exp(kSure * std::sqrt(scale.variance)),
                          static_cast<int>(peak.cars)};
+}
+
+void LooksTogether::add(const std::vector<ScaleOutcome>& outcomes) {
+    if (!estimateOfScale(outcomes)) return;
+    for (std::size_t i = 0; i < outcomes.size(); ++i) sums_[i] = sums_[i] + outcomes[i];
+    if (const auto estimate = estimateOfScale(sums_)) estimate_ = estimate;
+}
+
+bool LooksTogether::suffice() const {
+    return estimate_ && estimate_->vehicles >= kPlenty;
+}
+
+std::optional<std::size_t> bestOfViews(const std::vector<ScaleOutcome>& outcomes) {
+    std::optional<std::size_t> best;
+    double most = 0;
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+        const ScaleOutcome& outcome = outcomes[i];
+        if (!outcome.showsTraffic() || outcome.cars < kMostlyCars * outcome.tracks) continue;
+        if (outcome.score() <= most) continue;
+        most = outcome.score();
+        best = i;
+    }
+    return best;
 }
 
 }  // namespace eyrie

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -48,5 +49,22 @@ bool isCarSized(double length_m, double width_m);
 /// nothing does, the scale that would be assumed without it has a say, too. The less sure it is, the more counts that
 /// the fastest quarter of cars drive as fast as in towns: headlights and haze change sizes, not speeds.
 std::optional<ScaleEstimate> estimateOfScale(const std::vector<ScaleOutcome>& outcomes);
+
+/// What several looks at a video tell together, each under all assumptions.
+class LooksTogether {
+ public:
+    /// What looks like a vehicle by chance must not add up to traffic: a look that shows none does not count.
+    void add(const std::vector<ScaleOutcome>& outcomes);
+    const std::optional<ScaleEstimate>& estimate() const { return estimate_; }
+    /// Whether so many vehicles drive that no other look is needed.
+    bool suffice() const;
+
+ private:
+    std::vector<ScaleOutcome> sums_ = std::vector<ScaleOutcome>(kScaleAssumptions);
+    std::optional<ScaleEstimate> estimate_;
+};
+
+/// The place of the best of views that were tried: one that shows traffic, most of whose tracks are as large as a car.
+std::optional<std::size_t> bestOfViews(const std::vector<ScaleOutcome>& outcomes);
 
 }  // namespace eyrie

@@ -23,6 +23,11 @@ std::optional<FrameIndex> lastOfLook(const FrameSource& source, FrameRange range
     return last;
 }
 
+std::array<FrameIndex, 3> startsOfLooks(FrameIndex first, FrameIndex last, int frames) {
+    const FrameIndex farthest = std::max(first, last - frames + 1);
+    return {first, first + (farthest - first) / 2, farthest};
+}
+
 ScaleOutcome outcomeUnder(int count, const FrameOfLook& frame_of, const ChainOptions& options, const SceneScale& scale,
                           const std::stop_token& stop, const std::function<void()>& tell) {
     struct Seen {

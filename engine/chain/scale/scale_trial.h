@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <stop_token>
@@ -18,6 +19,9 @@ ChainOptions lookingOptions(const ChainOptions& options);
 
 /// The last frame that a look at a range may read; nothing where the video has no frame of it.
 std::optional<FrameIndex> lastOfLook(const FrameSource& source, FrameRange range);
+
+/// Where looks of so many frames begin: at the start, in the middle and at the end. They may overlap.
+std::array<FrameIndex, 3> startsOfLooks(FrameIndex first, FrameIndex last, int frames);
 
 /// The frame at a place of a look, from 0.
 using FrameOfLook = std::function<Frame(int)>;
