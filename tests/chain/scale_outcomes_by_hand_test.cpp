@@ -79,13 +79,13 @@ TEST(ScaleOutcomes, WhereLittleLooksLikeVehiclesTheAssumedScaleHasASay) {
         return estimateOfScale(outcomes).value();
     };
     const double of_a_step = std::pow(std::log(1.4), 2) / 12 / 4;
-    const double assumed = 0.25 / 0.056;
     const struct {
         double detections, doubt, drawn;
     } cases[] = {{24, 0, 0},  {24 / 0.45, 0, 0},   {24 / 0.325, 0.5, 0}, {120, 1, 0},
                  {150, 1, 0}, {24 / 0.13, 1, 0.5}, {240, 1, 1},          {999, 1, 1}};
     for (const auto& one : cases) {
-        EXPECT_NEAR(found(one.detections).gsd_m_per_px, 0.056 * std::pow(assumed, 0.36 * one.drawn), 1e-9)
+        const double by_sizes = 0.056 * std::exp(0.2 * one.doubt);
+        EXPECT_NEAR(found(one.detections).gsd_m_per_px, by_sizes * std::pow(0.25 / by_sizes, 0.36 * one.drawn), 1e-9)
             << one.detections;
         const double own = 0.11 + one.doubt * (0.45 - 0.11);
         EXPECT_NEAR(found(one.detections).uncertainty, std::exp(1.645 * std::sqrt(own * own + of_a_step)), 1e-9);
@@ -93,7 +93,7 @@ TEST(ScaleOutcomes, WhereLittleLooksLikeVehiclesTheAssumedScaleHasASay) {
 }
 
 TEST(ScaleOutcomes, SpeedsSayTheMoreTheLessSureSizesAre) {
-    // Of four cars that are seen at .056 m/px the fastest quarter drives at twice the 11 m/s of towns: .028 m/px.
+    // Of four cars that are seen at .056 m/px three drive at no more than 22 m/s, twice the 11 m/s of towns: .028 m/px.
     const auto found = [](double detections, const std::vector<double>& speeds) {
         std::vector<ScaleOutcome> outcomes(kScaleAssumptions);
         outcomes.at(1) = {detections, 24, 200, 4, 4, speeds};
@@ -105,13 +105,14 @@ TEST(ScaleOutcomes, SpeedsSayTheMoreTheLessSureSizesAre) {
         const double of_sizes = own * own + std::pow(std::log(1.4), 2) / 12 / 4;
         const double pull = of_sizes / (of_sizes + 0.45 * 0.45);
         const ScaleEstimate told = found(detections, {30, 5, 22, 10});
-        EXPECT_NEAR(told.gsd_m_per_px, 0.056 * std::pow(0.5, pull), 1e-9) << detections;
+        const double by_sizes = 0.056 * std::exp(0.2 * doubt);
+        EXPECT_NEAR(told.gsd_m_per_px, by_sizes * std::pow(0.028 / by_sizes, pull), 1e-9) << detections;
         EXPECT_NEAR(told.uncertainty, std::exp(1.645 * std::sqrt(pull) * 0.45), 1e-9) << detections;
         EXPECT_LT(told.uncertainty, found(detections, {}).uncertainty);
-        EXPECT_NEAR(found(detections, {11, 11, 11, 11}).gsd_m_per_px, 0.056, 1e-9) << "as in towns";
-        EXPECT_GT(found(detections, {2, 2, 2, 2}).gsd_m_per_px, 0.056) << "slow ones are farther away than they seem";
+        EXPECT_GT(found(detections, {2, 2, 2, 2}).gsd_m_per_px, by_sizes)
+            << "slow ones are farther away than they seem";
         for (const std::vector<double>& nothing : {std::vector<double>{}, {0, 0, 0, 0}})
-            EXPECT_NEAR(found(detections, nothing).gsd_m_per_px, 0.056, 1e-9);
+            EXPECT_NEAR(found(detections, nothing).gsd_m_per_px, by_sizes, 1e-9);
     }
 }
 

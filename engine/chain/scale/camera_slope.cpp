@@ -102,7 +102,7 @@ class PlaneCamera {
             off.push_back(focal_length_ * there.x() / there.z() - seen.to[i].x());
             off.push_back(focal_length_ * there.y() / there.z() - seen.to[i].y());
         }
-        // The lower half of the grid is never beyond the horizon.
+        // The lower half of the grid is never beyond the horizon, so there is always something to weigh.
         const double weight =
             std::sqrt(2 * kIndependentPlaces / static_cast<double>(off.size())) / (kOff * pixel_ * std::sqrt(steps));
         Eigen::VectorXd all(static_cast<Eigen::Index>(off.size()) + 2);

@@ -35,14 +35,14 @@ struct ChosenScale {
 /// The scale of a run: the stated GSD, or where there is none an estimate, or 0.25 m/px where that fails.
 ///
 /// The estimate: the chain runs over a few dozen frames under finer to coarser assumptions, and the one under which
-/// most of what moves looks to the classifier like vehicles, and has a car's size, is taken. Relief and glare look like
-/// vehicles under none. Right to a fifth where cars drive; it fails when too little looks like vehicles or `stop` is
-/// requested. Takes some seconds; `told`, if any, learns after every frame how far the look is. Where the first frames
-/// show few vehicles, those in the middle and at the end are looked at, too, and what shows traffic is taken together:
-/// a queue that stands and one rider that drives past it would settle the scale otherwise. With
-/// `view.oblique` it is looked how the scale changes over the picture, too. An estimate gives the chain's lengths a
-/// footing; `gsd_known` stays false, so that nobody is shown metres that were guessed. Throws Error(input) where the
-/// run needs a classifier that cannot be loaded.
+/// most of what moves looks to the classifier like vehicles, and has a car's size, is taken. Where that is doubtful,
+/// the speeds of cars have a say. Relief and glare look like vehicles under none. Right to a fifth where cars drive; it
+/// fails when too little looks like vehicles or `stop` is requested. Takes some seconds; `told`, if any, learns after
+/// every frame how far the look is. Where the first frames show few vehicles, those in the middle and at the end are
+/// looked at, too, and what shows traffic is taken together: a queue that stands and one rider that drives past it
+/// would settle the scale otherwise. With `view.oblique` it is looked how the scale changes over the picture, too. An
+/// estimate gives the chain's lengths a footing; `gsd_known` stays false, so that nobody is shown metres that were
+/// guessed. Throws Error(input) where the run needs a classifier that cannot be loaded.
 ChosenScale chooseScale(FrameSource& source, FrameRange range, const ChainOptions& options, const StatedScale& stated,
                         const std::stop_token& stop, const ScaleProgress& told = {});
 

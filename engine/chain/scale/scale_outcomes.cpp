@@ -21,9 +21,11 @@ constexpr double kErrorInDoubt = 0.45;
 constexpr std::pair kDoubted(0.2, 0.45);  ///< what they tell is doubted
 constexpr std::pair kDrawn(0.1, 0.16);    ///< … and drawn to the scale that would be assumed without them
 constexpr double kDrawnBy = 0.36;         ///< share of the logarithm: the doubt against a spread of .6 among videos
-constexpr double kFast = 0.75;            ///< share of the cars that the fastest quarter leaves below
-constexpr double kTownSpeed = 11;         ///< m/s of the slowest of those
-constexpr double kSpeedError = 0.45;      ///< standard error of its logarithm: between a jam and a motorway
+/// Of the logarithm, by which what is fully doubted seems larger than it is: lit or hazy ground counts as vehicle.
+constexpr double kLargerInDoubt = 0.2;
+constexpr double kFast = 0.75;        ///< share of the cars that are no faster …
+constexpr double kTownSpeed = 11;     ///< … than so many m/s
+constexpr double kSpeedError = 0.45;  ///< standard error of its logarithm: between a jam and a motorway
 /// Of the logarithm within one step of the assumptions.
 const double kStepVariance = std::log(kStep) * std::log(kStep) / 12;
 constexpr double kSure = 1.645;      ///< standard errors that hold 90 %
@@ -101,9 +103,11 @@ std::optional<ScaleEstimate> estimateOfScale(const std::vector<ScaleOutcome>& ou
     }
     const double middle = sum / weights;
     const double spread = squares / weights - middle * middle + kStepVariance;
+    const double doubt = partBelow(peak.alike(), kDoubted);
+    const double by_sizes = middle + doubt * kLargerInDoubt;
     const double drawn = kDrawnBy * partBelow(peak.alike(), kDrawn);
-    const double own_error = kOwnError + partBelow(peak.alike(), kDoubted) * (kErrorInDoubt - kOwnError);
-    LogOfScale scale{middle + drawn * (std::log(SceneScale().gsd_m_per_px) - middle),
+    const double own_error = kOwnError + doubt * (kErrorInDoubt - kOwnError);
+    LogOfScale scale{by_sizes + drawn * (std::log(SceneScale().gsd_m_per_px) - by_sizes),
                      own_error * own_error + spread / peak.cars};
     const double fast = peak.car_speeds_m_s.empty() ? 0 : quantileOf(peak.car_speeds_m_s, kFast);
     if (fast > 0) {

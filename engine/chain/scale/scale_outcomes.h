@@ -43,11 +43,12 @@ ScaleOutcome operator+(const ScaleOutcome& a, const ScaleOutcome& b);
 /// Whether a track of that length and width, m, is about as large as a car, as boxes have it.
 bool isCarSized(double length_m, double width_m);
 
-/// The middle of the scores around the best one, of one outcome for each assumption. On twelve clips it lay between .82
-/// and 1.06 of the truth; rather too fine than too coarse, since a scale too coarse by a tenth costs more. Nothing
-/// where too little looks like vehicles. Where most of what is detected does not, it is less sure, and where nearly
-/// nothing does, the scale that would be assumed without it has a say, too. The less sure it is, the more counts that
-/// the fastest quarter of cars drive as fast as in towns: headlights and haze change sizes, not speeds.
+/// The middle of the scores around the best one, of one outcome for each assumption. On eight clips it lay between .83
+/// and 1.09 of the truth; rather too fine than too coarse, since a scale too coarse by a tenth costs more. Nothing
+/// where too little looks like vehicles. Where most of what is detected does not, it is less sure and a little coarser
+/// than sizes say, since they are those of vehicles with the ground they light or darken, and where nearly
+/// nothing does, the scale that would be assumed without it has a say, too. The less sure it is, the more counts how
+/// fast three quarters of the cars drive at most, as in towns: headlights and haze change sizes, not speeds.
 std::optional<ScaleEstimate> estimateOfScale(const std::vector<ScaleOutcome>& outcomes);
 
 /// What several looks at a video tell together, each under all assumptions.

@@ -16,7 +16,7 @@ StretchLooker::StretchLooker(const ChainOptions& options, const SceneScale& scal
       looker_(options.detection.sliding_window),
       clustering_(options.clustering, scale) {}
 
-StretchLook StretchLooker::look(FrameSource& source, const Stretch& stretch, const std::function<bool(int)>& counts,
+StretchLook StretchLooker::look(FrameSource& source, const Stretch& stretch, const std::function<bool(int)>& votes_at,
                                 const std::stop_token& stop, LookProgress& progress) const {
     StretchLook look;
     MotionHalf motion_half(options_, scale_);
@@ -32,7 +32,7 @@ StretchLook StretchLooker::look(FrameSource& source, const Stretch& stretch, con
         const FrameMotion motion = motion_half.next(frame, times);
         progress.step();
         way.add(motion.registration);
-        if (!counts(look.frames)) continue;
+        if (!votes_at(look.frames)) continue;
         const std::vector<ScaleVote> found = votesIn(frame, motion);
         look.most_at_once = std::max(look.most_at_once, found.size());
         look.votes.insert(look.votes.end(), found.begin(), found.end());

@@ -34,9 +34,9 @@ class StretchLooker {
     /// Error(input) where no classifier can be loaded.
     StretchLooker(const ChainOptions& options, const SceneScale& scale, const ScaleRange& scales);
 
-    /// Frames of which `counts` says so, from 0, have votes. The look ends before a frame that cannot be read: the run
-    /// will come to it and report it.
-    StretchLook look(FrameSource& source, const Stretch& stretch, const std::function<bool(int)>& counts,
+    /// Only frames for whose place in the stretch, from 0, `votes_at` holds have votes. The look ends before a frame
+    /// that cannot be read: the run will come to it and report it.
+    StretchLook look(FrameSource& source, const Stretch& stretch, const std::function<bool(int)>& votes_at,
                      const std::stop_token& stop, LookProgress& progress) const;
 
  private:

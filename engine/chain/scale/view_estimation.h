@@ -22,8 +22,8 @@ double uncertaintyOfView(std::size_t vehicles_at_once);
 
 /// What a look for a view sees.
 struct ViewLook {
-    std::vector<Stretch>
-        stretches;  ///< that were looked at: the beginning, the middle and the end, as one where they touch
+    /// That were looked at: the beginning, the middle and the end, as one where they touch.
+    std::vector<Stretch> stretches;
     std::vector<ScaleVote> votes;
     std::size_t most_at_once = 0;  ///< votes of one frame
     CameraSlope camera;

@@ -11,8 +11,7 @@ std::string textOf(const DroppedState& dropped) {
         case TrackDrop::too_small:
             return track + " stayed smaller than any vehicle";
         case TrackDrop::wider_than_long:
-            return track +
-                   " stayed wider than long, as people, riders and upright things do that are seen from the side";
+            return track + " stayed wider than long, as people, riders and upright things seen from the side do";
         case TrackDrop::shares_place:
             return track + " lies on " + other + ", which was detected more often";
         case TrackDrop::shadow:

@@ -11,7 +11,7 @@ namespace eyrie {
 enum class TrackDrop {
     unconfirmed,      ///< never confirmed
     too_small,        ///< its boxes stayed smaller than any vehicle
-    wider_than_long,  ///< no vehicle is, from whatever side it is seen
+    wider_than_long,  ///< as hardly any vehicle is, from whatever side it is seen
     shares_place,     ///< it lies on a track that was detected more often
     shadow,           ///< it drives beside a vehicle as if fixed to it
     hardly_detected,  ///< guessed rather than detected

@@ -234,7 +234,8 @@ struct LiveStream::Receiver {
         const std::scoped_lock lock(mutex);
         info.path = std::filesystem::absolute(options.recording);
         info.frame_count = kLastFrame + 1;
-        info.frame_rate_hz = rate > 1 && rate < 1000 ? rate : 25;
+        info.frame_rate_assumed = !(rate > 1 && rate < 1000);
+        info.frame_rate_hz = info.frame_rate_assumed ? 25 : rate;
         info.codec = avcodec_get_name(stream.codecpar->codec_id);
         info.container = "mpegts";
     }

@@ -135,8 +135,7 @@ void FinishingOptions::describe(ParameterVisitor& v) {
     declare.real("finishing.max_aspect", max_aspect, 0, 10,
                  {"",
                   "Tracks whose boxes are usually wider than this many times their length are no vehicles, but people, "
-                  "riders or "
-                  "upright things seen from the side. 0: none.",
+                  "riders or upright things seen from the side. 0: none.",
                   ""});
     declare.real(
         "finishing.max_sharing", max_sharing, 0, 1,
@@ -353,11 +352,11 @@ FinishedTracks finishRun(const StatesOfRun& states, const GroundMotion& ground, 
         if (options.constant_size) steadySize(path, ground, framesOf(options.size_window_s / 2, scale));
         if (options.smooth_path) smoothPath(path, ground, std::max(2, framesOf(options.smooth_window_s / 2, scale)));
     }
-    dropWiderThanLong(paths, options.max_aspect, drops);
     if (options.drop_shadows) dropShadows(paths, scale, drops);
     traceBack(paths, ground, found.vectors_at, framesOf(options.trace_back_s, scale));
     dropHardlyDetected(paths, options.min_detected, scale, drops);
     if (join_parts) joinParts(paths, scale, PartsOfVehicle::overlapping);
+    dropWiderThanLong(paths, options.max_aspect, drops);  // parts of lorries are joined by now
     // Without a classifier nothing is known of looks, and nothing is judged by them.
     const bool judged = static_cast<bool>(found.classified_at);
     const VehicleLooks looks = judged ? looksOf(paths, found.classified_at) : VehicleLooks{};

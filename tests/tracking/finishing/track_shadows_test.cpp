@@ -4,6 +4,7 @@
 #include <set>
 
 #include "tracking/finishing/track_finishing.h"
+#include "tracking/finishing/track_paths.h"
 #include "tracking/frame_summaries.h"
 
 namespace eyrie::track_shadows_test {
@@ -124,6 +125,24 @@ TEST(DropWiderThanLong, WhatStaysAFifthWiderThanLongIsNoVehicle) {
     EXPECT_EQ(road.finished(options), std::set<TrackId>{1});
     options.max_aspect = 0;
     EXPECT_EQ(road.finished(options), (std::set<TrackId>{1, 2, 3}));
+}
+
+TEST(DropWiderThanLong, ItIsSoInMostOfItsLifeHoweverWideItIsMeanwhile) {
+    const auto kept = [](int wide_states) {
+        TrackPath path{1, {}};
+        for (int frame = 0; frame < 11; ++frame) {
+            PathState state;
+            state.box = OrientedBox{{0, 0}, 10, frame < wide_states ? 50.0 : 5.0, 0};
+            path.states.emplace_back(frame, state);
+        }
+        std::vector<TrackPath> paths{path};
+        DropList dropped;
+        dropWiderThanLong(paths, 1.2, dropped);
+        EXPECT_EQ(dropped.size(), 1 - paths.size());
+        return !paths.empty();
+    };
+    EXPECT_TRUE(kept(5));
+    EXPECT_FALSE(kept(6));
 }
 
 TEST(DroppedTracks, AreToldWithTheirReason) {

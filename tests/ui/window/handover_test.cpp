@@ -80,7 +80,7 @@ class HandoverTest : public QObject {
         QTimer::singleShot(0, window.get(), [&] {
             auto* dialog = qobject_cast<ExportDialog*>(QApplication::activeModalWidget());
             if (dialog == nullptr) return;
-            offered = dialog->findChild<QComboBox*>()->currentData().toString();
+            if (const auto* formats = dialog->findChild<QComboBox*>()) offered = formats->currentData().toString();
             dialog->reject();
         });
         window->actions().export_tracks->trigger();

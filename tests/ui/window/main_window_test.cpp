@@ -401,9 +401,8 @@ class MainWindowTest : public QObject {
         StartOptions options;
         options.input = *home_ / "images";
         window.start(options);
-        QVERIFY(waitFor([&] { return window.session().runData() != nullptr; }));
+        QVERIFY(waitFor([&] { return window.session().runData() && window.session().currentFrame() >= 21; }));
         window.session().playback().pause();
-        QVERIFY(window.session().currentFrame() >= 21);
         QVERIFY(qAbs(window.canvas().transform().zoom() - 6) < 1e-6);
         QVERIFY(window.session().runs().size() == 1);  // a finished run is shown, not made anew
     }

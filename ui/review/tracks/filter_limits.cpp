@@ -103,8 +103,11 @@ QLineEdit* FilterChips::addText(QHBoxLayout& line, const QString& name, const QS
             edit->setStyleSheet(take(edit->text().trimmed()) ? QString() : QStringLiteral("color: #d04040"));
         },
         edit);
-    connect(edit, &QLineEdit::returnPressed, popup_, [this, edit] {
-        if (edit->styleSheet().isEmpty()) popup_->close();
+    connect(edit, &QLineEdit::returnPressed, popup_, [this] {
+        const auto fields = popup_->findChildren<QLineEdit*>();
+        const bool bad = std::any_of(fields.begin(), fields.end(),
+                                     [](const QLineEdit* field) { return !field->styleSheet().isEmpty(); });
+        if (!bad) popup_->close();
     });
     line.addWidget(edit);
     return edit;

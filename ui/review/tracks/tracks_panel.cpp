@@ -5,6 +5,7 @@
 #include <QLabel>
 #include <QLocale>
 #include <QMenu>
+#include <QScrollBar>
 #include <QSlider>
 #include <QTableView>
 #include <QToolButton>
@@ -216,7 +217,9 @@ void TracksPanel::setLikeness(const std::shared_ptr<const LikenessByTrack>& like
     likeness_ = likeness;
     filterTracks();
     tracks_->setLikeness(likeness);  // tells that the query is another, too
-    if (likeness && std::exchange(from_the_top_, false)) table()->scrollToTop();
+    if (!likeness || !std::exchange(from_the_top_, false)) return;
+    table()->scrollToTop();
+    table()->horizontalScrollBar()->setValue(0);
 }
 
 void TracksPanel::orderByLikeness(bool wanted) {
