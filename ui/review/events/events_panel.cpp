@@ -142,7 +142,7 @@ void EventsPanel::showZones(bool shown) {
 }
 
 std::optional<int> EventsPanel::mostCharacters(int column) const {
-    constexpr int kOfKind = 27;  // with its mark, up to how long one stands; tracks and duration stay in view
+    constexpr int kOfKind = 32;  // with its mark, up to how long one stands; the tracks stay in view
     return column == EventsModel::kind_column ? std::optional(kOfKind) : std::nullopt;
 }
 
