@@ -1,4 +1,5 @@
 #include <QComboBox>
+#include <QTableView>
 #include <QTest>
 
 #include "review/events/events_panel.h"
@@ -57,6 +58,29 @@ class JoinedStopsTest : public test::ListedEvents {
         QCOMPARE(model.rowIdOf(id(row)), id(row));
         const QModelIndex duration = model.index(static_cast<int>(row), EventsModel::duration_column);
         QCOMPARE(duration.data().toString(), QStringLiteral("1.6 s"));
+    }
+
+    void aLongKindLeavesRoomForTheOtherColumnsAndIsInTheTip() {
+        EventsModel model;
+        EventsPanel panel(&model, *actions_);
+        give(model, found(aStop()));
+        panel.showCounts(0);
+        const QString all = QStringLiteral("Stops, stands 1.6 s, starts again");
+        const QTableView& table = *panel.table();
+        QTRY_VERIFY(table.columnWidth(EventsModel::kind_column) > 0);
+        const QAbstractItemView& view = table;
+        const int whole = view.sizeHintForColumn(EventsModel::kind_column);
+        const int width = table.columnWidth(EventsModel::kind_column);
+        QVERIFY2(width < whole, qPrintable(QStringLiteral("%1 of %2").arg(width).arg(whole)));
+        // How long it stands is seen still.
+        const int cut = table.fontMetrics().horizontalAdvance(QStringLiteral(", starts again")) -
+                        table.fontMetrics().horizontalAdvance(QStringLiteral(", …"));
+        QVERIFY2(width >= whole - cut, qPrintable(QStringLiteral("%1 of %2 - %3").arg(width).arg(whole).arg(cut)));
+        const int row = static_cast<int>(placeOf(model, EventKind::stops));
+        const QString tip = model.index(row, EventsModel::kind_column).data(Qt::ToolTipRole).toString();
+        QVERIFY2(tip.startsWith(all + QLatin1Char('\n')), qPrintable(tip));
+        const int turn = static_cast<int>(placeOf(model, EventKind::turns_back));
+        QCOMPARE(model.index(turn, EventsModel::kind_column).data(Qt::ToolTipRole).toString().count(kTurn), 1);
     }
 
     void whatIsJudgedOtherwiseOrHasANoteHasARowOfItsOwn() {

@@ -3,10 +3,12 @@
 #include <QLineEdit>
 #include <QListWidget>
 #include <QMenu>
+#include <QPushButton>
 #include <QSlider>
 #include <QTest>
 #include <QTimer>
 #include <QWidgetAction>
+#include <algorithm>
 #include <cmath>
 
 #include "canvas/timeline/timeline_view.h"
@@ -18,6 +20,7 @@
 #include "review/events/events_dock.h"
 #include "review/events/events_model.h"
 #include "review/events/events_panel.h"
+#include "review/mosaic/coverage_legend.h"
 #include "review/mosaic/mosaic_panel.h"
 #include "review/mosaic/mosaic_view.h"
 #include "review/watch/measure_tool.h"
@@ -158,6 +161,39 @@ class WatchingTest : public QObject {
         QTest::keyClick(&canvas(), Qt::Key_S);
         QCOMPARE(canvas().transform().rotation(), 0.0);
         QVERIFY(canvas().transform().fitted());
+    }
+
+    void whereThereIsNothingToFollowTheWindowSaysSoAndWhatToDo() {
+        QTest::keyClick(&canvas(), Qt::Key_S);
+        QVERIFY(tells(QStringLiteral("No vehicle is selected")));
+        const auto& tracks = window().watching().ground().ground()->run->tracks;
+        const auto absent = std::find_if(tracks.begin(), tracks.end(), [](const EventTrack& track) {
+            return track.boxes.front().frame > 0 || track.boxes.back().frame < 59;
+        });
+        QVERIFY(absent != tracks.end());
+        const bool later = absent->boxes.front().frame > 0;
+        const FrameIndex nearest = later ? absent->boxes.front().frame : absent->boxes.back().frame;
+        QVERIFY(goTo(later ? 0 : 59));
+        window().session().selectTrack(absent->id);
+        QVERIFY(!tells(QStringLiteral("No vehicle is selected")));
+        QVERIFY(tells(QStringLiteral("Track %1 is not in this frame").arg(absent->id)));
+        const auto buttons = window().messages().findChildren<QPushButton*>();
+        const auto go = std::find_if(buttons.begin(), buttons.end(), [&](const QPushButton* button) {
+            return button->text() == QStringLiteral("Go to frame %1").arg(nearest);
+        });
+        QVERIFY(go != buttons.end());
+        (*go)->click();
+        QVERIFY(test::shows(window().session(), nearest));
+        QVERIFY(!tells(QStringLiteral("is not in this frame")));
+        const auto pose = followedPose(*absent, nearest, window().watching().ground().ground()->run->footage.camera);
+        QVERIFY(pose.has_value());
+        QTRY_VERIFY(QLineF(inView({pose->centre.x, pose->centre.y}), QRectF(canvas().rect()).center()).length() < 2);
+        // Where it was switched off nobody is told.
+        QVERIFY(goTo(later ? 0 : 59));
+        window().session().selectTrack(std::nullopt);
+        QVERIFY(tells(QStringLiteral("No vehicle is selected")));
+        QTest::keyClick(&canvas(), Qt::Key_S);
+        QVERIFY(!tells(QStringLiteral("No vehicle is selected")));
     }
 
     void labellingHasTheCanvasToItself() {
@@ -374,6 +410,40 @@ class WatchingTest : public QObject {
         QVERIFY(panel.view().grab().toImage() == first);
         QTest::keyClick(&panel.view(), Qt::Key_Left);
         QVERIFY(panel.view().grab().toImage() != first);
+    }
+
+    void theMosaicIsTintedByHowLongAndWhenLastTheGroundWasSeen() {
+        actions().show_mosaic->trigger();
+        MosaicPanel& panel = window().watching().mosaic();
+        QTRY_VERIFY_WITH_TIMEOUT(panel.mosaic() != nullptr && panel.mosaic()->share == 1, kPatience_ms);
+        QVERIFY(!panel.legend().isVisible());
+        const QImage plain = panel.view().grab().toImage();
+        panel.coverage().setCurrentIndex(static_cast<int>(CoverageLook::seen_for));
+        QVERIFY(panel.legend().isVisible());
+        // 60 frames at 25 a second, all of which show the middle; the borders were seen for a frame.
+        QCOMPARE(panel.legend().times().front(), QStringLiteral("0.1 s"));
+        QCOMPARE(panel.legend().times().back(), QStringLiteral("2.4 s"));
+        const QImage seen_for = panel.view().grab().toImage();
+        QVERIFY(seen_for != plain);
+        panel.coverage().setCurrentIndex(static_cast<int>(CoverageLook::last_seen));
+        QCOMPARE(panel.legend().times(),
+                 (QStringList{QStringLiteral("0:00.0"), QStringLiteral("0:01.2"), QStringLiteral("0:02.4")}));
+        const QImage last_seen = panel.view().grab().toImage();
+        QVERIFY(last_seen != plain && last_seen != seen_for);
+        // The camera goes right: what is left was seen last in the beginning, what is right in the end.
+        const SheetCoverage& covered = *panel.view().coverage();
+        QVERIFY(covered.last_frame.at<int>(5, 0) < 5);
+        QCOMPARE(covered.last_frame.at<int>(5, covered.last_frame.cols - 2), 59);
+        // Times of the day, where these are known.
+        ClockOfFrames clock;
+        clock.time = [](FrameIndex frame) { return QStringLiteral("12:00:%1").arg(frame, 2, 10, QLatin1Char('0')); };
+        panel.setClock(clock);
+        QCOMPARE(panel.legend().times().front(), QStringLiteral("12:00:00"));
+        QCOMPARE(panel.legend().times().back(), QStringLiteral("12:00:59"));
+        panel.setClock({});
+        panel.coverage().setCurrentIndex(static_cast<int>(CoverageLook::none));
+        QVERIFY(!panel.legend().isVisible());
+        QTRY_VERIFY(panel.view().grab().toImage() == plain);  // once the legend has made room
     }
 
     void theCardShowsTheEventInALoopWithItsSpeedAndNote() {

@@ -163,6 +163,8 @@ QVariant EventsModel::data(const QModelIndex& index, int role) const {
 
 QString EventsModel::tipOf(const EventEntry& entry) const {
     QStringList lines{eventTipText(*found_, entry.position)};
+    // The column may be too narrow for all of it.
+    if (!entry.others.empty()) lines.prepend(eventRowText(*found_, entry.position, entry.others));
     for (const std::size_t place : entry.others)
         lines << tr("Also in this row: %1").arg(eventTipText(*found_, place).section(QLatin1Char('\n'), 0, 0));
     const QString moment = clock_.text(found_->framesAt(entry.position).first);

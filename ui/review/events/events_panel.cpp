@@ -141,6 +141,11 @@ void EventsPanel::showZones(bool shown) {
     if (shown) showThresholds(false);
 }
 
+std::optional<int> EventsPanel::mostCharacters(int column) const {
+    constexpr int kOfKind = 32;  // with its mark, up to how long one stands; the tracks stay in view
+    return column == EventsModel::kind_column ? std::optional(kOfKind) : std::nullopt;
+}
+
 // ---- filtering ------------------------------------------------------------------------------------------------------
 
 bool EventsPanel::isListed(const EventEntry& entry) const {

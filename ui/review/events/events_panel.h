@@ -87,6 +87,7 @@ class EventsPanel : public TablePanel {
     void rowClicked(int id, int /*column*/) override { commands_.show(id); }
     void rowDoubleClicked(int id) override;
     void fillMenu(QMenu& menu, int id) override;
+    std::optional<int> mostCharacters(int column) const override;
     QString hiddenText() const override;
     bool canShowHidden() const override { return true; }
     void showHidden() override;

@@ -19,7 +19,8 @@ class MosaicWork {
     explicit MosaicWork(const std::shared_ptr<const RunGround>& ground)
         : ground_(ground),
           sheets_(std::make_shared<const GroundSheets>(ground->run->footage, ground->run->footage.first_frame)),
-          painter_(sheets_) {
+          painter_(sheets_),
+          coverage_(std::make_shared<const std::vector<SheetCoverage>>(groundCoverage(*sheets_, *ground->run))) {
         auto paths = pathsOn(*sheets_, ground->run->tracks);
         for (std::size_t i = 0; i < painter_.sheets().size(); ++i) {
             const MosaicSheet& sheet = painter_.sheets()[i];
@@ -44,13 +45,14 @@ class MosaicWork {
             pictures_[i].image = imageForDisplay(painter_.sheets()[i].picture);
             painted_[i] = false;
         }
-        return std::make_shared<const MosaicPicture>(MosaicPicture{ground_, sheets_, pictures_, share});
+        return std::make_shared<const MosaicPicture>(MosaicPicture{ground_, sheets_, pictures_, coverage_, share});
     }
 
  private:
     std::shared_ptr<const RunGround> ground_;
     std::shared_ptr<const GroundSheets> sheets_;
     GroundMosaic painter_;
+    std::shared_ptr<const std::vector<SheetCoverage>> coverage_;
     std::vector<SheetPicture> pictures_;
     std::vector<bool> painted_;  ///< since they were shown
 };

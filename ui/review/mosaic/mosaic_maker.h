@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "ground/ground_coverage.h"
 #include "ground/place_history.h"
 #include "session/background/background_query.h"
 #include "session/project/media.h"
@@ -30,8 +31,9 @@ struct SheetPicture {
 struct MosaicPicture {
     std::shared_ptr<const RunGround> ground;
     std::shared_ptr<const GroundSheets> sheets;
-    std::vector<SheetPicture> pictures;  ///< by sheet
-    double share = 0;                    ///< of the work that is done, 0 … 1
+    std::vector<SheetPicture> pictures;                          ///< by sheet
+    std::shared_ptr<const std::vector<SheetCoverage>> coverage;  ///< by sheet, of the whole run from the beginning on
+    double share = 0;                                            ///< of the work that is done, 0 … 1
 };
 
 /// Lays the pictures of a run out on the ground, in the background and in bounded memory; shows what it has now and

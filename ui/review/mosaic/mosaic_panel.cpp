@@ -1,5 +1,7 @@
 #include "review/mosaic/mosaic_panel.h"
 
+#include <QComboBox>
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QListWidget>
 #include <QSplitter>
@@ -11,10 +13,12 @@
 
 #include "canvas/overlay_settings.h"
 #include "core/time_text.h"
+#include "review/mosaic/coverage_legend.h"
 #include "review/mosaic/mosaic_view.h"
 #include "review/watch/watched_ground.h"
 #include "widgets/display_text.h"
 #include "widgets/empty_state.h"
+#include "widgets/wiring.h"
 #include "workspace/first_step.h"
 #include "workspace/session_reactions.h"
 
@@ -38,7 +42,7 @@ QLabel* quietLine(QWidget* parent) {
 MosaicPanel::MosaicPanel(const MosaicParts& parts, QWidget* parent)
     : QWidget(parent), parts_(parts), maker_([this](const QString& message) { fail(message); }) {
     empty_ = new EmptyState;
-    header_ = quietLine(this);
+    buildBar();
     place_ = quietLine(this);
     view_ = new MosaicView([this](QPointF place) { askAbout(place); });
     list_ = new QListWidget;
@@ -60,7 +64,8 @@ MosaicPanel::MosaicPanel(const MosaicParts& parts, QWidget* parent)
     auto* rows = new QVBoxLayout(shown);
     rows->setContentsMargins(0, 0, 0, 0);
     rows->setSpacing(0);
-    rows->addWidget(header_);
+    rows->addWidget(bar_);
+    rows->addWidget(legend_);
     rows->addWidget(split, 1);
     stack_ = new QStackedLayout(this);
     stack_->addWidget(empty_);
@@ -85,6 +90,24 @@ MosaicPanel::MosaicPanel(const MosaicParts& parts, QWidget* parent)
 }
 
 MosaicPanel::~MosaicPanel() = default;
+
+void MosaicPanel::buildBar() {
+    bar_ = new QWidget(this);
+    header_ = quietLine(bar_);
+    coverage_ = new QComboBox(bar_);
+    coverage_->addItems({tr("No coverage"), tr("How long seen"), tr("When last seen")});
+    coverage_->setAccessibleName(tr("Coverage in time"));
+    coverage_->setToolTip(
+        tr("Tints the ground by how long, or when last, each place was in the picture. Frames that could not be "
+           "searched do not count: ground seen in those alone is not tinted."));
+    legend_ = new CoverageLegend(this);
+    legend_->hide();
+    auto* row = new QHBoxLayout(bar_);
+    row->setContentsMargins(2, 2, 2, 2);
+    row->addWidget(coverage_);
+    row->addWidget(header_, 1);
+    onEdited(this, &MosaicPanel::showCoverage, coverage_);
+}
 
 void MosaicPanel::setLookedAt(bool looked_at) {
     looked_at_ = looked_at;
@@ -162,17 +185,40 @@ void MosaicPanel::showFrame() {
     else if (mosaic->share < 1)
         texts << tr("%1 % laid out").arg(static_cast<int>(100 * mosaic->share));
     header_->setText(texts.join(QStringLiteral(" · ")));
-    header_->setVisible(!texts.isEmpty());
+    showCoverage();
     header_->setToolTip(count > 1
                             ? tr("A new ground begins where frames could not be registered; the one shown is that "
                                  "of the frame.")
                             : QString());
 }
 
+// ---- coverage in time -----------------------------------------------------------------------------------------------
+
+void MosaicPanel::showCoverage() {
+    view_->setCoverage(static_cast<CoverageLook>(coverage_->currentIndex()));
+    const QStringList times = coverageTimes();
+    legend_->setTimes(times);
+    legend_->setVisible(!times.isEmpty());
+}
+
+QStringList MosaicPanel::coverageTimes() const {
+    const SheetCoverage* covered = view_->coverage();
+    const auto look = static_cast<CoverageLook>(coverage_->currentIndex());
+    if (covered == nullptr || look == CoverageLook::none) return {};
+    if (covered->frames.last < covered->frames.first) return {tr("Nothing here was searched")};
+    QStringList times;
+    for (const double share : {0.0, 0.5, 1.0})
+        times << (look == CoverageLook::seen_for ? durationText(secondsAtShare(*covered, share))
+                                                 : timeOf(frameAtShare(*covered, share)));
+    times.removeDuplicates();
+    return times;
+}
+
 // ---- a place --------------------------------------------------------------------------------------------------------
 
 void MosaicPanel::setClock(ClockOfFrames clock) {
     clock_ = std::move(clock);
+    showCoverage();
     if (asked_ && list_->count() > 0) askAbout(*asked_);
 }
 

@@ -7,12 +7,14 @@
 #include "review/mosaic/mosaic_maker.h"
 #include "widgets/clock_of_frames.h"
 
+class QComboBox;
 class QLabel;
 class QListWidget;
 class QStackedLayout;
 
 namespace eyrie::ui {
 
+class CoverageLegend;
 class EmptyState;
 class MosaicView;
 class OverlaySettings;
@@ -39,6 +41,9 @@ class MosaicPanel : public QWidget {
     void setLookedAt(bool looked_at);
     MosaicView& view() { return *view_; }
     QListWidget& list() { return *list_; }
+    /// By what of its coverage in time the ground is tinted; a choice each of CoverageLook.
+    QComboBox& coverage() { return *coverage_; }
+    const CoverageLegend& legend() const { return *legend_; }
     const std::shared_ptr<const MosaicPicture>& mosaic() const { return maker_.mosaic(); }
     /// What time it was when the frames were taken; to be given again when that is known otherwise.
     void setClock(ClockOfFrames clock);
@@ -53,6 +58,9 @@ class MosaicPanel : public QWidget {
     void showFrame();
     void fail(const QString& message);
     void explainNothing();
+    void buildBar();
+    void showCoverage();
+    QStringList coverageTimes() const;
     QString timeOf(FrameIndex frame) const;
     void showHistory(int sheet, const PlaceHistory& history);
     void activate(int row);
@@ -63,7 +71,10 @@ class MosaicPanel : public QWidget {
     QString failure_;  ///< why nothing, or not all, was laid out; else empty
     QStackedLayout* stack_;
     EmptyState* empty_;
+    QWidget* bar_;
     QLabel* header_;
+    QComboBox* coverage_;
+    CoverageLegend* legend_;
     QLabel* place_;
     MosaicView* view_;
     QListWidget* list_;

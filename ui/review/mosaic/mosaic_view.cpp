@@ -61,6 +61,7 @@ void MosaicView::show(const std::shared_ptr<const MosaicPicture>& mosaic, int sh
     mosaic_ = mosaic;
     sheet_ = mosaic ? sheet : -1;
     if (!same) {
+        tint_ = {};
         place_.reset();
         fit();
     }
@@ -85,6 +86,18 @@ void MosaicView::setPlace(std::optional<QPointF> on_sheet) {
 void MosaicView::setColours(const OverlayColours& colours) {
     colours_ = colours;
     changeStill();
+}
+
+void MosaicView::setCoverage(CoverageLook look) {
+    if (look == coverage_look_) return;
+    coverage_look_ = look;
+    tint_ = {};
+    changeStill();
+}
+
+const SheetCoverage* MosaicView::coverage() const {
+    if (picture() == nullptr || !mosaic_->coverage) return nullptr;
+    return &mosaic_->coverage->at(static_cast<std::size_t>(sheet_));
 }
 
 // ---- place ----------------------------------------------------------------------------------------------------------
@@ -161,6 +174,19 @@ QVector<QLineF> MosaicView::waysOf(const SheetPicture& shown, std::optional<Trac
     return ways;
 }
 
+void MosaicView::paintTint(QPainter& painter, const SheetPicture& shown) {
+    const SheetCoverage* covered = coverage();
+    if (coverage_look_ == CoverageLook::none || covered == nullptr) return;
+    if (tint_.isNull()) tint_ = coverageTint(*covered, coverage_look_);
+    const cv::Rect2d& area = covered->area;
+    painter.save();
+    painter.setRenderHint(QPainter::SmoothPixmapTransform);
+    // The last cells reach beyond the ground.
+    painter.setClipRect(QRectF(origin_, QSizeF(shown.image.size()) * scale_));
+    painter.drawImage(QRectF(viewFromSheet({area.x, area.y}), viewFromSheet({area.br().x, area.br().y})), tint_);
+    painter.restore();
+}
+
 void MosaicView::paintStill(const SheetPicture& shown) {
     still_ = QPixmap(size() * devicePixelRatioF());
     still_.setDevicePixelRatio(devicePixelRatioF());
@@ -168,6 +194,7 @@ void MosaicView::paintStill(const SheetPicture& shown) {
     QPainter painter(&still_);
     painter.setRenderHint(QPainter::SmoothPixmapTransform, scale_ < 4);
     painter.drawImage(QRectF(origin_, QSizeF(shown.image.size()) * scale_), shown.image);
+    paintTint(painter, shown);
     painter.setRenderHint(QPainter::Antialiasing);
     drawEdgedLines(painter, waysOf(shown, std::nullopt), {colours_.track, colours_.edge, 1});
 }

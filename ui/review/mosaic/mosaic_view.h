@@ -9,7 +9,10 @@
 #include <optional>
 
 #include "canvas/overlay_colours.h"
+#include "review/mosaic/coverage_tint.h"
 #include "review/mosaic/mosaic_maker.h"
+
+class QPainter;
 
 namespace eyrie::ui {
 
@@ -30,6 +33,10 @@ class MosaicView : public QWidget {
     void setSelectedTrack(std::optional<TrackId> track);
     void setPlace(std::optional<QPointF> on_sheet);
     void setColours(const OverlayColours& colours);
+    /// By what the ground is tinted below the ways.
+    void setCoverage(CoverageLook look);
+    /// Of the sheet shown; null while there is none.
+    const SheetCoverage* coverage() const;
     void fit();
 
     QPointF viewFromSheet(QPointF on_sheet) const;
@@ -59,6 +66,7 @@ class MosaicView : public QWidget {
     /// What does not change while frames are played is painted anew.
     void changeStill();
     void paintStill(const SheetPicture& shown);
+    void paintTint(QPainter& painter, const SheetPicture& shown);
     /// Of one track, or of all.
     QVector<QLineF> waysOf(const SheetPicture& shown, std::optional<TrackId> track) const;
 
@@ -66,6 +74,8 @@ class MosaicView : public QWidget {
     std::shared_ptr<const MosaicPicture> mosaic_;
     int sheet_ = -1;
     QPixmap still_;  ///< the sheet and all ways, as they lie in the view; null: to be painted
+    CoverageLook coverage_look_ = CoverageLook::none;
+    QImage tint_;  ///< by coverage_look_; null: to be made
     OverlayColours colours_ = overlayColours(PaletteKind::thesis);
     FrameIndex frame_ = -1;
     std::optional<TrackId> selected_;

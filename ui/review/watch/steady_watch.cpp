@@ -1,11 +1,14 @@
 #include "review/watch/steady_watch.h"
 
+#include <QLocale>
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 
 #include "canvas/video_view.h"
 #include "review/watch/watched_ground.h"
+#include "widgets/message_bar.h"
 #include "workspace/session_reactions.h"
 #include "workspace/window_actions.h"
 
@@ -14,6 +17,7 @@ namespace eyrie::ui {
 namespace {
 
 constexpr double kShareOfView = 0.12;  ///< of its smaller side, that a followed vehicle is long
+const QString kFollowTopic = QStringLiteral("follow");
 
 QTransform qtMap(const cv::Matx33d& m) {
     return {m(0, 0), m(1, 0), m(2, 0), m(0, 1), m(1, 1), m(2, 1), m(0, 2), m(1, 2), m(2, 2)};
@@ -26,12 +30,16 @@ SteadyWatch::SteadyWatch(const SteadyParts& parts, QObject* parent) : QObject(pa
                         {parts_.actions.follow_object, [this](bool on) { setFollowing(on); }}});
     whenAny(&parts_.canvas, this, &SteadyWatch::showFrame, &VideoView::frameGiven);
     whenAny(&parts_.ground, this, &SteadyWatch::groundChanged, &WatchedGround::changed);
-    followSession(
-        parts_.session, this,
-        {{SessionChange::selection, [this] { follow(); }}, {SessionChange::video, [this] {
-                                                                parts_.actions.steady->setChecked(false);
-                                                                parts_.actions.follow_object->setChecked(false);
-                                                            }}});
+    followSession(parts_.session, this,
+                  {{SessionChange::selection,
+                    [this] {
+                        follow();
+                        if (following_) tellWhetherFollowed();
+                    }},
+                   {SessionChange::video, [this] {
+                        parts_.actions.steady->setChecked(false);
+                        parts_.actions.follow_object->setChecked(false);
+                    }}});
     enableActions();
 }
 
@@ -95,8 +103,10 @@ void SteadyWatch::setFollowing(bool on) {
         was_fitted_ = canvas.transform().fitted();
         near_.reset();
         follow();
+        tellWhetherFollowed();
         return;
     }
+    parts_.messages.dismissTopic(kFollowTopic);
     canvas.setRotation(0);
     if (was_fitted_) canvas.fit();
 }
@@ -112,11 +122,48 @@ std::optional<FollowedPose> SteadyWatch::poseOf(int track) const {
     return FollowedPose{state->box.centre, state->box.heading, state->box.length};
 }
 
+void SteadyWatch::tellWhetherFollowed() {
+    const auto track = parts_.session.selectedTrack();
+    if (!active_ || (track && poseOf(*track))) {
+        parts_.messages.dismissTopic(kFollowTopic);
+    } else if (track) {
+        tellNotInFrame(*track);
+    } else {
+        parts_.messages.showTopic(kFollowTopic, MessageKind::info,
+                                  tr("No vehicle is selected. Click one, and the view will follow it."));
+    }
+}
+
+void SteadyWatch::tellNotInFrame(int track) {
+    const auto& ground = parts_.ground.ground();
+    const EventTrack* known = ground ? ground->track(track) : nullptr;
+    if (known == nullptr || known->boxes.empty()) {
+        parts_.messages.showTopic(
+            kFollowTopic, MessageKind::info,
+            tr("Track %1 is not in this frame. Go to one that shows it, and the view will follow it.").arg(track));
+        return;
+    }
+    const FrameIndex here = parts_.canvas.frame().index;
+    const auto nearest =
+        std::min_element(known->boxes.begin(), known->boxes.end(), [here](const TrackedBox& a, const TrackedBox& b) {
+            return std::abs(a.frame - here) < std::abs(b.frame - here);
+        });
+    const QLocale locale;
+    const FrameIndex there = nearest->frame;
+    parts_.messages.showTopic(
+        kFollowTopic, MessageKind::info,
+        tr("Track %1 is not in this frame: it was seen from frame %2 to %3. The view will follow it there.")
+            .arg(track)
+            .arg(locale.toString(known->boxes.front().frame), locale.toString(known->boxes.back().frame)),
+        tr("Go to frame %1").arg(locale.toString(there)), [this, there] { parts_.session.goToFrame(there); });
+}
+
 void SteadyWatch::follow() {
     if (!active_ || !following_ || !parts_.session.selectedTrack()) return;
     const int track = *parts_.session.selectedTrack();
     const auto pose = poseOf(track);
     if (!pose) return;
+    parts_.messages.dismissTopic(kFollowTopic);
     VideoView& canvas = parts_.canvas;
     const QPointF centre(pose->centre.x, pose->centre.y);
     if (near_ != track) {

@@ -7,6 +7,7 @@
 
 namespace eyrie::ui {
 
+class MessageBar;
 class ProjectSession;
 class VideoView;
 class WatchedGround;
@@ -17,6 +18,7 @@ struct SteadyParts {
     ProjectSession& session;
     VideoView& canvas;
     WindowActions& actions;
+    MessageBar& messages;
     WatchedGround& ground;
 };
 
@@ -41,6 +43,9 @@ class SteadyWatch : public QObject {
     void layOnGround();
     void follow();
     std::optional<FollowedPose> poseOf(int track) const;
+    /// Says so where there is nothing to follow, and what to do.
+    void tellWhetherFollowed();
+    void tellNotInFrame(int track);
 
     SteadyParts parts_;
     bool active_ = true;

@@ -34,7 +34,7 @@ WatchingDocks::WatchingDocks(const WatchingParts& parts)
       ground_(new WatchedGround(this)),
       like_(new LikeTracks({parts.session, parts.review.tracks(), parts.docks, parts.actions, parts.messages}, this)),
       earth_(new EarthDock({parts.session, parts.canvas, parts.docks, parts.actions, parts.messages})),
-      steady_(new SteadyWatch({parts.session, parts.canvas, parts.actions, *ground_}, this)),
+      steady_(new SteadyWatch({parts.session, parts.canvas, parts.actions, parts.messages, *ground_}, this)),
       commands_(new WatchCommands(
           {parts.session, parts.canvas, parts.actions, parts.messages, parts.overlays, *ground_}, this)) {
     parts_.review.setLikenessWanted([this](std::optional<TrackId> track) { like_->want(track); });
