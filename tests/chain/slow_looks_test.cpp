@@ -24,6 +24,7 @@ test::MemorySource manySizes() {
                           {{290, 140}, {-1, 0}, {16, 8}},   {{20, 200}, {1.9, 0}, {90, 40}},
                           {{280, 190}, {-1, 0.2}, {33, 15}}};
         std::vector<cv::Mat> drawn;
+        drawn.reserve(kFrames);
         for (int i = 0; i < kFrames; ++i) drawn.push_back(scene.draw(i));
         return drawn;
     }();
