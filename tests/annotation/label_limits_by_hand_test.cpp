@@ -213,9 +213,9 @@ TEST(LabelLimits, MarksAreCutWhereAMoveBeginsAndEnds) {
     EXPECT_EQ(marksAfter(0, 9), "2:0-3 1:10-20 ");
     EXPECT_FALSE(editOf("Nothing", set, IdentityChange{}).reviews.has_value());
     change.review_moves = {{1, 7, 12, 15}};
-    EXPECT_EQ(editOf("Move", set, change).reviews->first, 1U) << "the mark before stays as it is";
+    EXPECT_EQ(editOf("Move", set, change).reviews->kept, 1U) << "the mark before stays as it is";
     EXPECT_FALSE(reviewEdit("Nothing", set, {}).reviews.has_value());
-    EXPECT_EQ(reviewEdit("Mark", set, {{1, 0, 9, ReviewState::checked, "", ""}}).reviews->first, 2U);
+    EXPECT_EQ(reviewEdit("Mark", set, {{1, 0, 9, ReviewState::checked, "", ""}}).reviews->kept, 2U);
 }
 
 TEST(LabelLimits, ACorrectionGoesOnWhereATenthIsShared) {

@@ -220,7 +220,7 @@ TEST(ExplanationReasons, AClusterOfWhichNothingWasTracedWasNotSplit) {
     evidence.clustering.groups[0].split_by = "clustering.split_width";
     const Lines lines = linesOf(explain(evidence, plain(), kScale), "clustering");
     EXPECT_THAT(lines.back(), StartsWith("· the nearest vector outside is 6 px ahead"));
-    EXPECT_THAT(lines.back(), EndsWith("@clustering.along"));
+    EXPECT_THAT(lines.back(), EndsWith("@clustering.velocity_share")) << "of what it comes nearest to";
 }
 
 TEST(ExplanationReasons, OfLinkedVectorsTheClusterWithMostIsToldFirst) {
