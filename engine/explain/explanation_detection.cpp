@@ -71,7 +71,7 @@ bool tellDetection(Story& story, const std::vector<int>& clusters, std::vector<i
     for (std::size_t i = 0; i < found.size(); ++i) {
         const bool of_cluster = std::find(clusters.begin(), clusters.end(), found[i].cluster) != clusters.end();
         const bool here = atPlace(found[i].box, evidence.area);
-        if (here && (of_cluster || clusters.empty())) detections.push_back(static_cast<int>(i));
+        if (here && of_cluster) detections.push_back(static_cast<int>(i));
     }
     const DetectionTrace::Check* decider = nullptr;
     for (const SearchTrace& search : evidence.searches) {
