@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "annotation/keyframes/dense_boxes.h"
+#include "annotation/keyframes/keyframe_path.h"
 #include "annotation/keyframes/keyframe_reduction.h"
 #include "annotation/pictures/box_tracker.h"
 #include "annotation/pictures/object_stack.h"
@@ -173,6 +174,18 @@ TEST(FollowBoxByHand, PicturesOfAnotherKindAreNone) {
     const FollowResult stopped = followBox(
         {{100, 60}, 20, 10, 0}, 3, 9, [&](FrameIndex) { return ground; }, standing, {}, {}, stop.get_token());
     EXPECT_EQ(stopped.reason, "stopped at frame 4: stopped by hand");
+}
+
+TEST(KeyframePathByHand, APieceMovesFromHalfOfTheMeanLengthOfItsEndsOn) {
+    const auto moves = [](double way) {
+        KeyframePath path(PathShape::smooth, true);
+        path.add({0, {0, 0}, 20, 8, 0});
+        path.add({10, {way, 0}, 40, 8, 0});
+        path.add({20, {100, 0}, 4, 8, 0});
+        return path.moving(0);
+    };
+    EXPECT_FALSE(moves(14.9));
+    EXPECT_TRUE(moves(15));
 }
 
 TEST(ObjectStackByHand, ThreePicturesMakeAStack) {

@@ -211,6 +211,10 @@ TEST(LabelLimits, MarksAreCutWhereAMoveBeginsAndEnds) {
     EXPECT_EQ(marksAfter(0, 10), "2:0-3 1:11-20 7:10-10 ");
     EXPECT_EQ(marksAfter(21, 30), "2:0-3 1:10-20 ");
     EXPECT_EQ(marksAfter(0, 9), "2:0-3 1:10-20 ");
+    change.review_moves = {{1, 7, 12, 15}, {1, 8, 17, 18}};
+    EXPECT_EQ(editOf("Move", set, change).reviews->added.size(), 5U) << "10 to 11, 16, 19 to 20, and what has moved";
+    change.review_moves = {{9, 7, 0, 99}, {1, 7, 12, 20}};
+    EXPECT_EQ(editOf("Move", set, change).reviews->added.size(), 2U) << "moves of others say nothing of these marks";
     EXPECT_FALSE(editOf("Nothing", set, IdentityChange{}).reviews.has_value());
     change.review_moves = {{1, 7, 12, 15}};
     EXPECT_EQ(editOf("Move", set, change).reviews->kept, 1U) << "the mark before stays as it is";
