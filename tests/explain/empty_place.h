@@ -7,6 +7,14 @@ namespace eyrie::test {
 /// 1 px is 25 cm, 1 px/frame is 6.25 m/s; a car is 18 × 7.2 px.
 inline constexpr SceneScale kPlaceScale{0.25, 25, true};
 
+/// Options in which counts alone decide, however dense corners are, so that they can be worked out by hand.
+inline ChainOptions withoutDensity() {
+    ChainOptions options;
+    options.clustering.min_density_share = 0;
+    options.outliers.min_density_share = 0;
+    return options;
+}
+
 /// A registered frame without corners; the place is a car's length around (100, 100).
 inline PlaceEvidence emptyPlace() {
     PlaceEvidence evidence;

@@ -19,13 +19,6 @@ using Lines = std::vector<std::string>;
 
 constexpr SceneScale kScale = test::kPlaceScale;  // a car is 18 px long, 1 px/frame are 6.25 m/s
 
-ChainOptions plain() {
-    ChainOptions options;
-    options.clustering.min_density_share = 0;
-    options.outliers.min_density_share = 0;
-    return options;
-}
-
 CornerVerdict corner(CornerFate fate, int age = 20) {
     CornerVerdict verdict;
     verdict.position = {100, 100};
@@ -40,7 +33,7 @@ CornerVerdict corner(CornerFate fate, int age = 20) {
 Explanation ofCorners(CornerVerdicts corners, const SceneScale& scale = kScale) {
     PlaceEvidence evidence = test::emptyPlace();
     evidence.corners = std::move(corners);
-    return explain(evidence, plain(), scale);
+    return explain(evidence, test::withoutDensity(), scale);
 }
 
 /// Vectors in a row along the motion at these places.
@@ -83,8 +76,8 @@ TrackState stateAt(TrackId id, double x, TrackStatus status, StateOrigin origin 
 }
 
 Explanation told(PlaceEvidence evidence, const SceneScale& scale = kScale) {
-    MotionClustering(plain().clustering, scale).cluster(evidence.result.motion, &evidence.clustering);
-    return explain(evidence, plain(), scale);
+    MotionClustering(test::withoutDensity().clustering, scale).cluster(evidence.result.motion, &evidence.clustering);
+    return explain(evidence, test::withoutDensity(), scale);
 }
 
 Lines linesOf(const Explanation& explanation, const std::string& stage) {
@@ -218,7 +211,7 @@ TEST(ExplanationReasons, AClusterOfWhichNothingWasTracedWasNotSplit) {
     evidence.clustering.groups.resize(1);
     evidence.clustering.groups[0].cluster = 5;
     evidence.clustering.groups[0].split_by = "clustering.split_width";
-    const Lines lines = linesOf(explain(evidence, plain(), kScale), "clustering");
+    const Lines lines = linesOf(explain(evidence, test::withoutDensity(), kScale), "clustering");
     EXPECT_THAT(lines.back(), StartsWith("· the nearest vector outside is 6 px ahead"));
     EXPECT_THAT(lines.back(), EndsWith("@clustering.velocity_share")) << "of what it comes nearest to";
 }

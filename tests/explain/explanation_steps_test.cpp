@@ -16,13 +16,6 @@ using Lines = std::vector<std::string>;
 
 constexpr SceneScale kScale = test::kPlaceScale;  // a car is 18 px long, 1 px/frame are 6.25 m/s
 
-ChainOptions plain() {
-    ChainOptions options;
-    options.clustering.min_density_share = 0;
-    options.outliers.min_density_share = 0;
-    return options;
-}
-
 void addVectors(PlaceEvidence& evidence, const std::vector<cv::Point2f>& places) {
     for (const cv::Point2f& at : places) {
         auto& vectors = evidence.result.motion.motion_vectors;
@@ -65,7 +58,7 @@ TrackState stateAt(TrackId id, double x, TrackStatus status, StateOrigin origin 
     return state;
 }
 
-Explanation told(PlaceEvidence evidence, const ChainOptions& options = plain()) {
+Explanation told(PlaceEvidence evidence, const ChainOptions& options = test::withoutDensity()) {
     MotionClustering(options.clustering, kScale).cluster(evidence.result.motion, &evidence.clustering);
     return explain(evidence, options, kScale);
 }
@@ -192,7 +185,7 @@ TEST(ExplanationSteps, TooFewVectorsAndTheNextOfThem) {
 TEST(ExplanationSteps, LinkedVectorsThatAreTooLong) {
     PlaceEvidence evidence = test::emptyPlace();
     addVectors(evidence, {{92, 100}, {100, 100}, {108, 100}});
-    ChainOptions options = plain();
+    ChainOptions options = test::withoutDensity();
     options.clustering.max_length_m = 3;
     const Explanation explanation = told(evidence, options);
     EXPECT_THAT(linesOf(explanation, "clustering"),
@@ -232,7 +225,9 @@ TEST(ExplanationSteps, AClusterThatWasSplitSaysSo) {
     evidence.clustering.groups[1].members = {0, 1, 2, 3};
     evidence.clustering.groups[1].cluster = 0;
     evidence.clustering.groups[1].split_by = "clustering.split_width";
-    const auto neighbour = [&] { return linesOf(explain(evidence, plain(), kScale), "clustering").back(); };
+    const auto neighbour = [&] {
+        return linesOf(explain(evidence, test::withoutDensity(), kScale), "clustering").back();
+    };
     EXPECT_THAT(neighbour(), HasSubstr("; they came apart when a cluster that was too large was split"));
     EXPECT_THAT(neighbour(), testing::EndsWith("@clustering.split_width"));
     evidence.result.motion.motion_vectors[4].position.x = 134;
@@ -243,7 +238,7 @@ TEST(ExplanationSteps, AClusterThatWasSplitSaysSo) {
 }
 
 TEST(ExplanationSteps, AreasOfDifferenceImagesAreAllTold) {
-    ChainOptions options = plain();
+    ChainOptions options = test::withoutDensity();
     options.difference.method = MotionMethod::two_frame_difference;
     PlaceEvidence evidence = clustered();
     addVectors(evidence, {{100, 106}});
@@ -369,7 +364,7 @@ TEST(ExplanationSteps, WhatBecameOfTheTrackersOwnTrack) {
     evidence.result.detections = {detectionAt(100)};
     evidence.unfinished = {stateAt(6, 100, TrackStatus::confirmed, StateOrigin::predicted),
                            stateAt(8, 300, TrackStatus::tentative)};
-    ChainOptions options = plain();
+    ChainOptions options = test::withoutDensity();
     options.finishing.trim_predicted = true;
     EXPECT_THAT(linesOf(told(evidence, options), "tracks"),
                 ElementsAre("+ track 6 of the tracker: confirmed, predicted",

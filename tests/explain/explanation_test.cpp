@@ -27,14 +27,6 @@ CornerVerdict cornerAt(CornerId id, float x, float y, CornerFate fate) {
     return corner;
 }
 
-/// Options in which counts alone decide, so that they can be worked out by hand.
-ChainOptions plainOptions() {
-    ChainOptions options;
-    options.clustering.min_density_share = 0;
-    options.outliers.min_density_share = 0;
-    return options;
-}
-
 /// With what clustering reports of the frame.
 Explanation explained(PlaceEvidence evidence, const ChainOptions& options, const SceneScale& scale) {
     MotionClustering(options.clustering, scale).cluster(evidence.result.motion, &evidence.clustering);
@@ -88,7 +80,7 @@ TEST(Explanation, frameThatCouldNotBeRegistered) {
     PlaceEvidence evidence = test::emptyPlace();
     evidence.result.motion.registration.state = RegistrationState::failed;
     evidence.result.motion.registration.failure = {.fault = RegistrationFault::too_few_agree, .count = 12, .of = 40};
-    const Explanation told = explained(evidence, plainOptions(), test::kPlaceScale);
+    const Explanation told = explained(evidence, test::withoutDensity(), test::kPlaceScale);
     EXPECT_FALSE(told.found);
     EXPECT_EQ(told.parameter, "registration.min_inliers");
     EXPECT_THAT(told.sentence, HasSubstr("too few corners agree (12 of 40)"));
@@ -97,11 +89,11 @@ TEST(Explanation, frameThatCouldNotBeRegistered) {
 
 TEST(Explanation, placeWithoutCorners) {
     PlaceEvidence evidence = test::emptyPlace();
-    const Explanation told = explained(evidence, plainOptions(), test::kPlaceScale);
+    const Explanation told = explained(evidence, test::withoutDensity(), test::kPlaceScale);
     EXPECT_EQ(told.parameter, "registration.corner_deviation");
     EXPECT_EQ(told.setting, "0.5 px");
     evidence.result.motion.corner_count = 11'990;
-    EXPECT_EQ(explained(evidence, plainOptions(), test::kPlaceScale).parameter, "registration.max_corners");
+    EXPECT_EQ(explained(evidence, test::withoutDensity(), test::kPlaceScale).parameter, "registration.max_corners");
 }
 
 TEST(Explanation, cornersTooYoungForTheirSpeedToBeKnown) {
@@ -111,7 +103,7 @@ TEST(Explanation, cornersTooYoungForTheirSpeedToBeKnown) {
     corner.baseline = 0;
     corner.parameter = "motion.min_age";
     evidence.corners = CornerVerdicts{corner};
-    const Explanation told = explained(evidence, plainOptions(), test::kPlaceScale);
+    const Explanation told = explained(evidence, test::withoutDensity(), test::kPlaceScale);
     EXPECT_EQ(told.parameter, "motion.min_age");
     EXPECT_EQ(told.sentence,
               "The oldest corner here has been tracked for 3 frames, 5 are needed: motion.min_age = 5 "
@@ -128,7 +120,7 @@ TEST(Explanation, cornersSlowerThanTheThreshold) {
     slower.id = 2;
     slower.speed = 0.04;
     evidence.corners = CornerVerdicts{corner, slower};
-    const Explanation told = explained(evidence, plainOptions(), test::kPlaceScale);
+    const Explanation told = explained(evidence, test::withoutDensity(), test::kPlaceScale);
     EXPECT_EQ(told.parameter, "motion.min_speed");
     // 0.1 px/frame · 0.25 m/px · 25 frames/s = 0.625 m/s.
     EXPECT_EQ(told.sentence,
@@ -141,17 +133,17 @@ TEST(Explanation, cornersThatParallaxOrAShadowExplains) {
     evidence.corners =
         CornerVerdicts{cornerAt(1, 98, 100, CornerFate::parallax), cornerAt(2, 102, 100, CornerFate::slow)};
     evidence.corners->front().parameter = "motion.parallax_factor";
-    EXPECT_EQ(explained(evidence, plainOptions(), test::kPlaceScale).parameter, "motion.parallax_factor");
+    EXPECT_EQ(explained(evidence, test::withoutDensity(), test::kPlaceScale).parameter, "motion.parallax_factor");
     evidence.corners = CornerVerdicts{cornerAt(1, 98, 100, CornerFate::shadow)};
-    EXPECT_EQ(explained(evidence, plainOptions(), test::kPlaceScale).parameter, "motion.shadow_test");
+    EXPECT_EQ(explained(evidence, test::withoutDensity(), test::kPlaceScale).parameter, "motion.shadow_test");
 }
 
 TEST(Explanation, tooFewVectorsForACluster) {
     PlaceEvidence evidence = test::emptyPlace();
     evidence.result.motion.motion_vectors = {vectorAt(1, 98, 100), vectorAt(2, 102, 100)};
-    const Explanation told = explained(evidence, plainOptions(), test::kPlaceScale);
+    const Explanation told = explained(evidence, test::withoutDensity(), test::kPlaceScale);
     EXPECT_EQ(told.sentence, "2 motion vectors, 3 are needed: clustering.min_members = 3 vectors.");
-    ChainOptions by_density = plainOptions();
+    ChainOptions by_density = test::withoutDensity();
     // 1000 corners in 1000 × 500 px give 0.002 per px²; a car of 18 × 7.2 px has 0.2592 of them, far below 3.
     by_density.clustering.min_density_share = 2;
     EXPECT_EQ(explained(evidence, by_density, test::kPlaceScale).parameter, "clustering.min_members");
@@ -164,15 +156,15 @@ TEST(Explanation, vectorsThatTheLinkageKeepsApart) {
     PlaceEvidence evidence = test::emptyPlace();
     // Three vectors, one of them 6 px aside of the others, where 4 are allowed (1.0 m / 0.25 m/px).
     evidence.result.motion.motion_vectors = {vectorAt(1, 98, 98), vectorAt(2, 102, 98), vectorAt(3, 100, 104)};
-    const Explanation told = explained(evidence, plainOptions(), test::kPlaceScale);
+    const Explanation told = explained(evidence, test::withoutDensity(), test::kPlaceScale);
     EXPECT_EQ(told.parameter, "clustering.min_distance");  // 1.0 m are 4 px, and so is the floor
-    ChainOptions no_floor = plainOptions();
+    ChainOptions no_floor = test::withoutDensity();
     no_floor.clustering.min_distance = 1;
     EXPECT_EQ(explained(evidence, no_floor, test::kPlaceScale).parameter, "clustering.across");
     EXPECT_THAT(told.sentence, HasSubstr("3 motion vectors lie here, but only 2 are linked"));
     // Near enough, but half as fast: a difference of 1 px/frame, where 12 % of the mean of 1.5 are allowed.
     evidence.result.motion.motion_vectors[2] = vectorAt(3, 100, 100, {1, 0});
-    const Explanation differs = explained(evidence, plainOptions(), test::kPlaceScale);
+    const Explanation differs = explained(evidence, test::withoutDensity(), test::kPlaceScale);
     EXPECT_EQ(differs.parameter, "clustering.velocity_share");
     EXPECT_THAT(differs.sentence, HasSubstr("velocities differ by 1 px/frame"));
     EXPECT_THAT(differs.sentence, HasSubstr("(allowed 0.18)"));
@@ -182,7 +174,7 @@ TEST(Explanation, clusterInWhichTheWindowsAreNotSureEnough) {
     PlaceEvidence evidence = clusteredPlace();
     evidence.searches.front().trace.checks = {
         {"decision value of the best window", "sliding_window.decision_threshold", -1.25, 0, false, false}};
-    const Explanation told = explained(evidence, plainOptions(), test::kPlaceScale);
+    const Explanation told = explained(evidence, test::withoutDensity(), test::kPlaceScale);
     EXPECT_EQ(told.parameter, "sliding_window.decision_threshold");
     EXPECT_EQ(told.sentence,
               "The detector found no box here; closest was: decision value of the best window: -1.25, at least 0: "
@@ -196,7 +188,7 @@ TEST(Explanation, ofSeveralChecksTheOneThatWasCloserDecides) {
         {"motion vectors in a component", "gradient.support_share", 0, 1, false, false, here},
         {"area of a box", "gradient.min_box_area", 9, 10, false, false, here},
         {"area of a box", "gradient.min_box_area", 1, 10, false, false, {40, 60, 1, 1}}};
-    const Explanation told = explained(evidence, plainOptions(), test::kPlaceScale);
+    const Explanation told = explained(evidence, test::withoutDensity(), test::kPlaceScale);
     EXPECT_EQ(told.parameter, "gradient.min_box_area");
     EXPECT_THAT(told.sentence, HasSubstr("area of a box: 9, at least 10"));
 }
@@ -205,7 +197,7 @@ TEST(Explanation, detectionWithTooFewVectorsIsAnOutlier) {
     PlaceEvidence evidence = detectedPlace();
     evidence.result.detections.front().vectors = {0, 1};
     evidence.result.detections.front().rejection = Rejection::outlier;
-    const Explanation told = explained(evidence, plainOptions(), test::kPlaceScale);
+    const Explanation told = explained(evidence, test::withoutDensity(), test::kPlaceScale);
     EXPECT_EQ(told.sentence,
               "The detection here was removed as an outlier: 2 motion vectors move with the box, 3 are needed: "
               "outliers.min_vectors = 3 vectors.");
@@ -215,7 +207,7 @@ TEST(Explanation, detectionOfAnImpossibleSize) {
     PlaceEvidence evidence = detectedPlace();
     evidence.result.detections.front().box.length = 4;  // 1 m; at least 1.2 m are 4.8 px
     evidence.result.detections.front().rejection = Rejection::size;
-    const Explanation told = explained(evidence, plainOptions(), test::kPlaceScale);
+    const Explanation told = explained(evidence, test::withoutDensity(), test::kPlaceScale);
     EXPECT_EQ(told.parameter, "outliers.min_length");
     EXPECT_THAT(told.sentence, HasSubstr("4 px (1 m), at least 4.8 px (1.2 m)"));
 }
@@ -224,7 +216,7 @@ TEST(Explanation, detectionThatReachesBeyondThePicture) {
     PlaceEvidence evidence = detectedPlace();
     evidence.result.motion.image_size = {104, 480};  // the box ends at x = 109, the picture at 103.5: 12.5 of 18 px
     evidence.result.detections.front().rejection = Rejection::size;
-    ChainOptions options = plainOptions();
+    ChainOptions options = test::withoutDensity();
     options.outliers.inside_image = true;
     const Explanation told = explained(evidence, options, test::kPlaceScale);
     EXPECT_EQ(told.parameter, "outliers.inside_image");
@@ -237,7 +229,7 @@ TEST(Explanation, duplicateNamesTheOverlapThatDecided) {
     evidence.result.detections[1].box.centre = {140, 100};
     evidence.result.detections[0].rejection = Rejection::duplicate;
     evidence.removal.duplicates = {{0, 1, 0.82, 0.7, "duplicates.threshold"}};
-    const Explanation told = explained(evidence, plainOptions(), test::kPlaceScale);
+    const Explanation told = explained(evidence, test::withoutDensity(), test::kPlaceScale);
     EXPECT_EQ(told.parameter, "duplicates.threshold");
     EXPECT_THAT(told.sentence, HasSubstr("overlaps another detection by 0.82, duplicates overlap by 0.7"));
 }
@@ -247,7 +239,7 @@ TEST(Explanation, tentativeTrackCountsItsDetections) {
     evidence.tracking->started = {{0, 7}};
     evidence.unfinished = {stateAt(7, {100, 100}, TrackStatus::tentative, StateOrigin::detected)};
     evidence.tracking->tentative = {{7, 3, 8, 5, 8}};
-    const Explanation told = explained(evidence, plainOptions(), test::kPlaceScale);
+    const Explanation told = explained(evidence, test::withoutDensity(), test::kPlaceScale);
     EXPECT_FALSE(told.found);
     EXPECT_EQ(
         told.sentence,
@@ -264,7 +256,7 @@ TEST(Explanation, trackThatEndedForWantOfEvidence) {
     track.ended_value = 9;
     track.ended_limit = 8;
     evidence.tracking->tracks = {track};
-    const Explanation told = explained(evidence, plainOptions(), test::kPlaceScale);
+    const Explanation told = explained(evidence, test::withoutDensity(), test::kPlaceScale);
     // The first thing that was missing decided: without a corner nothing else could come.
     EXPECT_EQ(told.parameter, "registration.corner_deviation");
     const auto ended = std::find_if(told.steps.begin(), told.steps.end(), [](const ExplanationStep& step) {
@@ -278,7 +270,7 @@ TEST(Explanation, trackThatEndedForWantOfEvidence) {
 TEST(Explanation, detectionInsideATrackThatMovesAlikeStartsNone) {
     PlaceEvidence evidence = detectedPlace();
     evidence.tracking->doubled = {{0, "tracking.duplicate_overlap"}};
-    const Explanation told = explained(evidence, plainOptions(), test::kPlaceScale);
+    const Explanation told = explained(evidence, test::withoutDensity(), test::kPlaceScale);
     EXPECT_EQ(told.parameter, "tracking.duplicate_overlap");
 }
 
@@ -293,7 +285,7 @@ TEST(Explanation, hitTellsItsTrackAndTheRowOfTheOverlapMatrix) {
     evidence.tracking->tracks = {row};
     evidence.tracking->relations = {{0, 12, 0.93, true}};
     evidence.tracking->min_overlap = 0.2;
-    const Explanation told = explained(evidence, plainOptions(), test::kPlaceScale);
+    const Explanation told = explained(evidence, test::withoutDensity(), test::kPlaceScale);
     EXPECT_TRUE(told.found);
     EXPECT_TRUE(told.parameter.empty());
     EXPECT_THAT(told.sentence, StartsWith("Track 12 is here: confirmed"));
@@ -380,7 +372,7 @@ TEST(Explanation, everyParameterNamedIsOneThatExists) {
 TEST(Explanation, trackLeftOutWhenTracksWereFinished) {
     PlaceEvidence evidence = detectedPlace();
     evidence.result.dropped = {{7, {{100, 100}, 18, 7, 0}, TrackDrop::hardly_detected, 0}};
-    const Explanation told = explained(evidence, plainOptions(), test::kPlaceScale);
+    const Explanation told = explained(evidence, test::withoutDensity(), test::kPlaceScale);
     EXPECT_FALSE(told.found);
     EXPECT_EQ(told.parameter, "finishing.min_detected");
     EXPECT_THAT(told.sentence, HasSubstr("track 7 was guessed rather than detected"));
@@ -400,7 +392,7 @@ TEST(Explanation, whatSpeaksForATrackAndAgainstItIsTold) {
     judged.score = 0.91;
     evidence.judged[7] = judged;
     const auto stepWith = [&](const std::string& words) {
-        const Explanation told = explained(evidence, plainOptions(), test::kPlaceScale);
+        const Explanation told = explained(evidence, test::withoutDensity(), test::kPlaceScale);
         for (const ExplanationStep& step : told.steps)
             if (step.text.find(words) != std::string::npos) return step;
         return ExplanationStep{};

@@ -95,24 +95,19 @@ void takeFacts(BatchRow& row, ProjectFile& project, const RunRecord& run) {
     row.tracks = counts.tracks;
 }
 
-/// Answers the run of an input, if its project has one, whose facts are in its row then.
-std::optional<Begun> lookedUp(BatchRow& row, const ResumeWishes& wishes) {
-    if (!isFile(row.project)) return std::nullopt;
-    ProjectFile file = ProjectFile::open(row.project, ProjectFile::Mode::read_only);
-    const std::optional<RunRecord> run = runOf(RunStore(file), row, wishes);
-    if (!run) return std::nullopt;
-    takeFacts(row, file, *run);
-    return Begun{*run, isNewer(row.input, *run) || isOfOtherFiles(row.input, *run, file)};
-}
+/// Whether it matters to who looks up a run that its input may have changed: that means to read a folder through.
+enum class ChangesOfInput { looked_for, ignored };
 
-/// The same of one that was just worked on: what its run says where it is finished, nothing else.
-std::optional<std::string> messageOfFinished(BatchRow& row, const ResumeWishes& wishes) {
+/// Answers the run of an input, if its project has one, whose facts are in its row then.
+std::optional<Begun> lookedUp(BatchRow& row, const ResumeWishes& wishes, ChangesOfInput changes) {
     if (!isFile(row.project)) return std::nullopt;
     ProjectFile file = ProjectFile::open(row.project, ProjectFile::Mode::read_only);
     const std::optional<RunRecord> run = runOf(RunStore(file), row, wishes);
     if (!run) return std::nullopt;
     takeFacts(row, file, *run);
-    return run->state == RunState::finished ? std::optional(run->message) : std::nullopt;
+    const bool has_changed =
+        changes == ChangesOfInput::looked_for && (isNewer(row.input, *run) || isOfOtherFiles(row.input, *run, file));
+    return Begun{*run, has_changed};
 }
 
 bool isOver(BatchState state) {
@@ -200,7 +195,7 @@ void Batch::begin(std::size_t number) {
     BatchRow& row = rows_[number];
     if (!row.input.fault.empty()) return close(number, BatchState::failed, row.input.fault);
     try {
-        const auto begun = row.anew ? std::nullopt : lookedUp(row, options_.wishes);
+        const auto begun = row.anew ? std::nullopt : lookedUp(row, options_.wishes, ChangesOfInput::looked_for);
         if (begun && begun->isFinished() && !begun->has_changed) return close(number, BatchState::done_before, "");
         row.anew = row.anew || (begun && begun->isFinished());
         // Whoever goes on looks at the pictures again. One that another program writes is left to it.
@@ -235,9 +230,10 @@ void Batch::end(std::size_t number, const ChildEnd& how) {
     std::string fault = "ended without a finished run; perhaps somebody else works on its project";
     std::string remark;
     try {
-        if (const auto message = messageOfFinished(row, options_.wishes)) {
+        const auto worked_on = lookedUp(row, options_.wishes, ChangesOfInput::ignored);
+        if (worked_on && worked_on->isFinished()) {
             fault.clear();
-            remark = *message;
+            remark = worked_on->run.message;
         }
     } catch (const Error& error) {
         fault = error.what();

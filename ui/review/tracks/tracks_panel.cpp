@@ -223,13 +223,10 @@ void TracksPanel::setLikeness(const std::shared_ptr<const LikenessByTrack>& like
 }
 
 void TracksPanel::orderByLikeness(bool wanted) {
-    QHeaderView* header = table()->horizontalHeader();
+    const QHeaderView* header = table()->horizontalHeader();
     table()->setColumnHidden(TracksModel::like_column, !wanted);
     if (wanted) {
-        // The others may not all be in view.
-        const int from = header->visualIndex(TracksModel::like_column);
-        const int beside = header->visualIndex(TracksModel::id_column);
-        header->moveSection(from, from > beside ? beside + 1 : beside);
+        placeBeside(TracksModel::like_column, TracksModel::id_column);  // the others may not all be in view
         order_before_like_ = {header->sortIndicatorSection(), header->sortIndicatorOrder()};
         table()->sortByColumn(TracksModel::like_column, Qt::DescendingOrder);
     } else if (header->sortIndicatorSection() == TracksModel::like_column) {

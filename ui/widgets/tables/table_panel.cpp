@@ -409,14 +409,16 @@ void TablePanel::restoreColumns() {
     if (shownColumns().isEmpty()) table_->showColumn(0);
 }
 
-void TablePanel::placeAtFirst(const QList<int>& columns, int beside) {
+void TablePanel::placeBeside(int column, int beside) {
     QHeaderView* header = table_->horizontalHeader();
-    for (auto column = columns.rbegin(); column != columns.rend(); ++column) {
-        if (*column < known_columns_) continue;
-        const int from = header->visualIndex(*column);
-        const int left = header->visualIndex(beside);
-        header->moveSection(from, from > left ? left + 1 : left);
-    }
+    const int from = header->visualIndex(column);
+    const int left = header->visualIndex(beside);
+    header->moveSection(from, from > left ? left + 1 : left);
+}
+
+void TablePanel::placeAtFirst(const QList<int>& columns, int beside) {
+    for (auto column = columns.rbegin(); column != columns.rend(); ++column)
+        if (*column >= known_columns_) placeBeside(*column, beside);
 }
 
 void TablePanel::hideAtFirst(const QList<int>& columns, int beside) {

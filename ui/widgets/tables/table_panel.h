@@ -47,6 +47,8 @@ class TablePanel : public QWidget {
 
  protected:
     TableSortProxy& proxy() { return *proxy_; }
+    /// Moves a column to the right of another one.
+    void placeBeside(int column, int beside);
     /// Columns that stand right of `beside` until a person moves them. For constructors.
     void placeAtFirst(const QList<int>& columns, int beside);
     /// Columns that are hidden, and stand right of `beside`, until a person shows or moves them. For constructors.
