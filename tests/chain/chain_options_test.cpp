@@ -360,6 +360,7 @@ TEST(ChainOptions, theThesisPresetDiffersFromTheDefaultsWhereItMust) {
         {"finishing.max_sharing", "1"},
         {"finishing.drop_shadows", "false"},
         {"finishing.trim_shadows", "false"},
+        {"finishing.whole_lorries", "false"},
         {"finishing.min_detected", "0"},
         {"finishing.standing_height", "0"},
         {"finishing.standing_depth", "0"},

@@ -190,6 +190,7 @@ TEST(ScaleLooks, CountWhatTheChainFindsAndTracksThatHaveSettled) {
     double detections = 0, whole = 0, decision = 0;
     struct Seen {
         std::vector<double> lengths, widths, speeds;
+        bool looked_whole = false;
     };
     std::map<TrackId, Seen> seen;
     for (int i = 0; i < 30; ++i) {
@@ -204,6 +205,11 @@ TEST(ScaleLooks, CountWhatTheChainFindsAndTracksThatHaveSettled) {
             seen[track.id].lengths.push_back(0.2 * track.box.length);
             seen[track.id].widths.push_back(0.2 * track.box.width);
             seen[track.id].speeds.push_back(0.2 * 25 * std::hypot(track.velocity.x, track.velocity.y));
+            for (const Detection& detection : result.detections) {
+                const cv::Point2d off = detection.box.centre - track.box.centre;
+                if (detection.complete && std::hypot(off.x, off.y) < track.box.length / 2)
+                    seen[track.id].looked_whole = true;
+            }
         }
     }
     double tracks = 0, cars = 0;
@@ -213,7 +219,7 @@ TEST(ScaleLooks, CountWhatTheChainFindsAndTracksThatHaveSettled) {
         ++tracks;
         if (!isCarSized(medianOf(of_track.lengths), medianOf(of_track.widths))) continue;
         ++cars;
-        speeds.push_back(medianOf(of_track.speeds));
+        if (of_track.looked_whole) speeds.push_back(medianOf(of_track.speeds));
     }
     const ScaleOutcome outcome = outcomeOf(30);
     EXPECT_GT(outcome.detections, 10);
@@ -233,6 +239,17 @@ TEST(ScaleLooks, CountWhatTheChainFindsAndTracksThatHaveSettled) {
     stopped.request_stop();
     const auto frame_of = [&](int i) { return source.read(i, false); };
     EXPECT_EQ(outcomeUnder(30, frame_of, options, scale, stopped.get_token(), [] {}).detections, 0);
+}
+
+TEST(ScaleLooks, SpeedsAreThoseOfWhatTheClassifierTookForVehicles) {
+    ChainOptions options = lookingOptions({});
+    options.detection.sliding_window.decision_threshold = 1000;  // it takes nothing for one
+    test::MemorySource source = sceneOf(30);
+    const ScaleOutcome outcome = outcomeUnder(
+        30, [&](int i) { return source.read(i, false); }, options, {0.2, 25, false}, {}, [] {});
+    EXPECT_EQ(outcome.looks, 0);
+    EXPECT_GE(outcome.cars, 1) << "vectors tell where they are";
+    EXPECT_TRUE(outcome.car_speeds_m_s.empty());
 }
 
 TEST(ScaleLooks, SearchAreasHaveTheSameSizeInMetresAtAnyScale) {

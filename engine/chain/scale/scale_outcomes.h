@@ -26,7 +26,8 @@ struct ScaleOutcome {
     double decision = 0;  ///< sum of its decision values there
     double tracks = 0;
     double cars = 0;  ///< tracks of a car's size
-    /// Of those, where the frame rate is known: their speeds, m/s under the assumption.
+    /// Of those that the classifier took for whole vehicles at least once, where the frame rate is known: their speeds,
+    /// m/s under the assumption.
     std::vector<double> car_speeds_m_s = {};
 
     /// Share of the detections that look like whole vehicles.

@@ -13,6 +13,15 @@ namespace {
 
 constexpr int kSettledFrames = 14;  ///< until tracks have formed
 constexpr std::size_t kFewestStates = 8;
+constexpr double kAtTrack = 0.5;  ///< of its length, from which a detection is off its middle at most
+
+/// Whether the classifier takes what is at a track's place for a whole vehicle.
+bool looksWhole(const OrientedBox& box, const std::vector<Detection>& detections) {
+    return std::any_of(detections.begin(), detections.end(), [&](const Detection& detection) {
+        const cv::Point2d off = detection.box.centre - box.centre;
+        return detection.complete && std::hypot(off.x, off.y) < kAtTrack * box.length;
+    });
+}
 
 }  // namespace
 
@@ -32,6 +41,7 @@ ScaleOutcome outcomeUnder(int count, const FrameOfLook& frame_of, const ChainOpt
                           const std::stop_token& stop, const std::function<void()>& tell) {
     struct Seen {
         std::vector<double> lengths, widths, speeds;
+        bool looked_whole = false;
     };
     ScaleOutcome outcome;
     Chain chain(options, scale);
@@ -50,6 +60,7 @@ ScaleOutcome outcomeUnder(int count, const FrameOfLook& frame_of, const ChainOpt
             if (track.status != TrackStatus::confirmed) continue;
             const SceneScale here = scale.at(track.box.centre);
             Seen& seen = tracks[track.id];
+            seen.looked_whole = seen.looked_whole || looksWhole(track.box, result.detections);
             seen.lengths.push_back(here.metres(track.box.length));
             seen.widths.push_back(here.metres(track.box.width));
             seen.speeds.push_back(here.metresPerSecond(std::hypot(track.velocity.x, track.velocity.y)));
@@ -60,7 +71,8 @@ ScaleOutcome outcomeUnder(int count, const FrameOfLook& frame_of, const ChainOpt
         ++outcome.tracks;
         if (!isCarSized(medianOf(seen.lengths), medianOf(seen.widths))) continue;
         ++outcome.cars;
-        outcome.car_speeds_m_s.push_back(medianOf(seen.speeds));
+        // What relief and haze seem to move is slow.
+        if (seen.looked_whole) outcome.car_speeds_m_s.push_back(medianOf(seen.speeds));
     }
     return outcome;
 }

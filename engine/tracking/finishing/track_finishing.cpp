@@ -156,6 +156,12 @@ void FinishingOptions::describe(ParameterVisitor& v) {
                   "what their headlights light ahead of them where no shadows fall and a quarter of the tracks have "
                   "them on. Needs a method with a classifier.",
                   ""});
+    declare.flag("finishing.whole_lorries", whole_lorries,
+                 {"",
+                  "Where the box of a sure track holds a part of a longer vehicle, make it as long as what hides the "
+                  "ground there, and leave out the tracks of other parts. Not in the dark. Used where the ground "
+                  "sampling distance is known or was estimated. Needs a method with a classifier.",
+                  ""});
     declare.real(
         "finishing.min_detected", min_detected, 0, 1,
         {"",
@@ -210,6 +216,7 @@ FinishingOptions FinishingOptions::thesis() {
     options.max_sharing = 1;
     options.drop_shadows = false;
     options.trim_shadows = false;
+    options.whole_lorries = false;
     options.min_detected = 0;
     options.join_parts = false;
     options.standing_height = 0;

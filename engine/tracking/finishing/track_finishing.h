@@ -55,6 +55,7 @@ struct FinishingOptions {
     double max_sharing = 0.5;
     bool drop_shadows = true;
     bool trim_shadows = true;
+    bool whole_lorries = true;
     double min_detected = 0.4;
     double standing_height = 0.33;
     double standing_depth = 0.2;
@@ -66,7 +67,7 @@ struct FinishingOptions {
     /// Confirmed tracks from their first detection on, otherwise unchanged (Teutsch §7.1.2).
     static FinishingOptions thesis();
     /// Whether any step looks at the pictures of the run.
-    bool looksAtPictures() const { return follow_ends_s > 0 || trim_shadows; }
+    bool looksAtPictures() const { return follow_ends_s > 0 || trim_shadows || whole_lorries; }
 };
 
 /// A state of a track and the frame it belongs to.

@@ -5,7 +5,7 @@
 #include "core/values/scene_scale.h"
 #include "tracking/finishing/track_paths.h"
 #include "tracking/pictures/ground_turns.h"
-#include "tracking/pictures/silhouette_search.h"
+#include "tracking/silhouettes/silhouette_search.h"
 
 namespace eyrie {
 

@@ -9,17 +9,25 @@ namespace {
 constexpr std::size_t kFewestLookedAt = 2;  ///< times a track is
 constexpr double kClearBeam = 0.1;          ///< share of the length
 constexpr int kFewestLit = 3;               ///< tracks that have a beam …
-constexpr double kMostLit = 0.25;           ///< … and share of those that were looked at, since by day few look so
-constexpr double kLampsWithin = 0.06;       ///< share of the length by which lamps lie behind the front
-constexpr double kLongestOut = 0.5;         ///< share of the length that is taken out at most
+constexpr double kLeastLit = 0.25;     ///< … and least share of those that were looked at, since by day few look so
+constexpr double kLampsWithin = 0.06;  ///< share of the length by which lamps lie behind the front
+constexpr double kLongestOut = 0.5;    ///< share of the length that is taken out at most
+
+std::map<TrackId, double> beamsByTrack(const std::vector<SilhouetteLook>& looks) {
+    return usualByTrack(looks, &SilhouetteLook::beam, kFewestLookedAt);
+}
 
 }  // namespace
 
-void takeOutBeams(std::vector<TrackPath>& paths, const std::vector<SilhouetteLook>& looks) {
-    const std::map<TrackId, double> beams = usualByTrack(looks, &SilhouetteLook::beam, kFewestLookedAt);
+bool driveWithHeadlights(const std::vector<SilhouetteLook>& looks) {
+    const std::map<TrackId, double> beams = beamsByTrack(looks);
     const auto lit =
         std::count_if(beams.begin(), beams.end(), [](const auto& beam) { return beam.second >= kClearBeam; });
-    if (lit < kFewestLit || static_cast<double>(lit) < kMostLit * static_cast<double>(beams.size())) return;
+    return lit >= kFewestLit && static_cast<double>(lit) >= kLeastLit * static_cast<double>(beams.size());
+}
+
+void takeOutBeams(std::vector<TrackPath>& paths, const std::vector<SilhouetteLook>& looks) {
+    const std::map<TrackId, double> beams = beamsByTrack(looks);
     for (TrackPath& path : paths) {
         const auto beam = beams.find(path.id);
         if (beam == beams.end()) continue;

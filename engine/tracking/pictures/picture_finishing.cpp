@@ -9,6 +9,7 @@
 #include "tracking/finishing/track_paths.h"
 #include "tracking/pictures/cast_shadow.h"
 #include "tracking/pictures/headlight_beams.h"
+#include "tracking/pictures/long_vehicles.h"
 
 namespace eyrie {
 namespace {
@@ -24,11 +25,10 @@ TrackId ownerOf(const TakenUp& taken_up, TrackId track) {
     return track;
 }
 
-/// Follows tracks on where they end, and joins those that meet: they keep the better score, and what speaks for it.
-TakenUp followOn(FinishedTracks& finished, const GroundMotion& ground, const FinishingOptions& options,
-                 const SceneScale& scale, const GrayOfFrame& gray_at) {
+/// Joins those that meet: they keep the better score, and what speaks for it.
+TakenUp joinFollowed(FinishedTracks& finished, const FollowedEnds& followed, const GroundMotion& ground,
+                     const FinishingOptions& options, const SceneScale& scale) {
     std::vector<TrackPath>& paths = finished.paths;
-    const FollowedEnds followed = followEnds(paths, ground, gray_at, framesOf(options.follow_ends_s, scale), scale);
     TakenUp taken_up;
     for (const auto& [older, later] : joinMeeting(paths, followed, ground, options, scale)) {
         const TrackEvidence of_later = finished.evidence[later];
@@ -48,6 +48,26 @@ TakenUp followOn(FinishedTracks& finished, const GroundMotion& ground, const Fin
     return taken_up;
 }
 
+/// Follows tracks on where they end, and joins those that meet.
+TakenUp followOn(FinishedTracks& finished, const GroundMotion& ground, const FinishingOptions& options,
+                 const SceneScale& scale, const GrayOfFrame& gray_at) {
+    const int frames = framesOf(options.follow_ends_s, scale);
+    const FollowedEnds followed = followEnds(finished.paths, ground, gray_at, frames, scale);
+    return joinFollowed(finished, followed, ground, options, scale);
+}
+
+/// Makes boxes reach whole lorries, whose parts in other tracks are theirs from then on. Leaves out of the looks those
+/// at boxes that it changed.
+void makeWhole(FinishedTracks& finished, std::vector<SilhouetteLook>& looks, const std::vector<CastShadow>& shadows,
+               const GroundTurns& turns, const GroundMotion& ground, const FinishingOptions& options,
+               const SceneScale& scale) {
+    const std::set<TrackId> longer = reachWholeVehicles(finished.paths, looks, shadows, turns, scale);
+    if (longer.empty()) return;
+    joinFollowed(finished, {longer, longer}, ground, options, scale);
+    dropPartsOf(longer, finished.paths, finished.dropped);
+    std::erase_if(looks, [&](const SilhouetteLook& look) { return longer.contains(look.track); });
+}
+
 GroundTurns turnsOf(const std::vector<TrackPath>& paths, const GroundMotion& ground, const SceneScale& scale) {
     FrameIndex first = paths.front().firstFrame();
     FrameIndex last = first;
@@ -64,7 +84,7 @@ void finishByPictures(FinishedTracks& finished, const GroundMotion& ground, cons
                       const SceneScale& scale, const GrayOfFrame& gray_at) {
     std::vector<TrackPath>& paths = finished.paths;
     if (!gray_at || paths.empty()) return;
-    if (!options.trim_shadows || !hasMetricLimits(scale)) {
+    if (!(options.trim_shadows || options.whole_lorries) || !hasMetricLimits(scale)) {
         followOn(finished, ground, options, scale, gray_at);
         return;
     }
@@ -80,10 +100,14 @@ void finishByPictures(FinishedTracks& finished, const GroundMotion& ground, cons
     for (SilhouetteLook& look : looks) look.track = ownerOf(taken_up, look.track);
     const GroundTurns turns = turnsOf(paths, ground, scale);
     const std::vector<CastShadow> shadows = castShadows(looks, turns, scale);
-    if (options.drop_shadows) dropShadowTracks(paths, looks, shadows, turns, scale, finished.dropped);
-    takeOutShadows(paths, looks, shadows, turns, scale);
     // Where the sun casts shadows headlights light nothing, and what seems to be lit ahead is a bright vehicle.
-    if (shadows.empty()) takeOutBeams(paths, looks);
+    const bool dark = shadows.empty() && driveWithHeadlights(looks);
+    if (options.drop_shadows && options.trim_shadows)
+        dropShadowTracks(paths, looks, shadows, turns, scale, finished.dropped);
+    if (options.whole_lorries && !dark) makeWhole(finished, looks, shadows, turns, ground, options, scale);
+    if (!options.trim_shadows) return;
+    takeOutShadows(paths, looks, shadows, turns, scale);
+    if (dark) takeOutBeams(paths, looks);
 }
 
 }  // namespace eyrie

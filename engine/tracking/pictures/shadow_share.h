@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "tracking/pictures/silhouette_search.h"
+#include "tracking/silhouettes/silhouette_search.h"
 
 namespace eyrie {
 

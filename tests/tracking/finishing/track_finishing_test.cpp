@@ -382,7 +382,7 @@ TEST(FinishTracks, survivesMissingSummariesAndBrokenStates) {
 TEST(FinishingOptions, areAllNamedAfterFinishing) {
     FinishingOptions options;
     const auto parameters = listParameters(describeOf(options));
-    EXPECT_EQ(parameters.size(), 27u);
+    EXPECT_EQ(parameters.size(), 28u);
     for (const Parameter& parameter : parameters) EXPECT_EQ(parameter.name.rfind("finishing.", 0), 0u);
 }
 

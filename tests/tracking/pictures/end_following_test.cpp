@@ -107,6 +107,7 @@ TEST(EndFollowing, withoutPicturesOrSwitchedOffNothingChanges) {
     EXPECT_EQ(without.rbegin()->first, kLost);
     car.options.follow_ends_s = 0;
     car.options.trim_shadows = false;
+    car.options.whole_lorries = false;
     const auto off = car.finished();
     EXPECT_EQ(off.begin()->first, kFound - 5);
     EXPECT_EQ(off.rbegin()->first, kLost);

@@ -89,12 +89,13 @@ TEST(HeadlightBeams, AreTakenOutOfTheFrontOfBoxes) {
     EXPECT_NEAR(after(looksAt({0, 0.2, 0.2, 0.2})).length, 20, 1e-4) << "its lamps are off";
 }
 
-TEST(HeadlightBeams, NeedSomeTracksThatHaveThem) {
-    EXPECT_NEAR(after(looksAt({0.36, 0.2})).length, 20, 1e-4) << "two are not enough";
-    EXPECT_NEAR(after(looksAt({0.36, 0.2, 0.09})).length, 20, 1e-4) << "nor is what is hardly one";
-    EXPECT_NEAR(after(looksAt({0.36, 0.2, 0.2, 0, 0, 0, 0, 0, 0, 0, 0, 0})).length, 14, 1e-4) << "a quarter has them";
-    EXPECT_NEAR(after(looksAt({0.36, 0.2, 0.2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0})).length, 20, 1e-4) << "as by day";
-    EXPECT_NEAR(after(looksAt({0.36, 0.2, 0.2}, 1)).length, 20, 1e-4) << "one look is chance";
+TEST(HeadlightBeams, TellThatItIsDarkWhereSomeTracksHaveThem) {
+    EXPECT_TRUE(driveWithHeadlights(looksAt({0.36, 0.2, 0.2})));
+    EXPECT_FALSE(driveWithHeadlights(looksAt({0.36, 0.2}))) << "two are not enough";
+    EXPECT_FALSE(driveWithHeadlights(looksAt({0.36, 0.2, 0.09}))) << "nor is what is hardly one";
+    EXPECT_TRUE(driveWithHeadlights(looksAt({0.36, 0.2, 0.2, 0, 0, 0, 0, 0, 0, 0, 0, 0}))) << "a quarter has them";
+    EXPECT_FALSE(driveWithHeadlights(looksAt({0.36, 0.2, 0.2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}))) << "as by day";
+    EXPECT_FALSE(driveWithHeadlights(looksAt({0.36, 0.2, 0.2}, 1))) << "one look is chance";
 }
 
 }  // namespace eyrie::headlight_beams_test

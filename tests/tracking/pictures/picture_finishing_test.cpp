@@ -75,7 +75,88 @@ struct SunnyLanes {
     }
 };
 
+/// A lorry of 12 m whose cab was followed, with a break, and its rear as a track of its own.
+struct FollowedCab {
+    static constexpr int kFrames = 90;
+    FinishedTracks finished;
+    FinishingOptions options;
+    double brightness = 150;  ///< of the ground …
+    double paint = 230;       ///< … and of the lorry
+
+    FollowedCab() {
+        add(1, 10, 39, 0, 4 * 5);
+        add(4, 41, 75, 0, 4 * 5);
+        add(3, 20, 50, -40, 4 * 5);
+        options.follow_ends_s = 0;
+        options.trim_shadows = false;
+    }
+    static double frontAt(FrameIndex frame) { return 70 + 5.0 * frame; }
+    /// `back`: px from the cab's middle.
+    void add(TrackId id, FrameIndex first, FrameIndex last, double back, double length) {
+        TrackPath path{id, {}};
+        for (FrameIndex frame = first; frame <= last; ++frame) {
+            TrackState state;
+            state.id = id;
+            state.score = id == 3 ? 0.4 : 0.9;
+            state.box = {{frontAt(frame) - 10 + back, 60}, length, 12, 0};
+            state.velocity = {5, 0};
+            state.status = TrackStatus::confirmed;
+            path.states.emplace_back(frame, PathState(state));
+        }
+        finished.paths.push_back(path);
+        TrackEvidence evidence;
+        evidence.score = id == 4 ? 0.9 : 0.8;
+        finished.evidence[id] = evidence;
+    }
+    void finish() {
+        GroundMotion ground;
+        for (FrameIndex frame = 0; frame < kFrames; ++frame) {
+            FrameMotionSummary summary = test::summaryOfFrame(frame);
+            summary.image_size = {640, 120};
+            ground.add(summary);
+        }
+        finishByPictures(finished, ground, options, test::FilmedDrive::kScale, [this](FrameIndex frame) {
+            cv::Mat picture(120, 640, CV_8UC1, cv::Scalar(brightness));
+            picture(cv::Rect(cvRound(frontAt(frame)) - 60, 54, 60, 12)).setTo(paint);
+            return picture;
+        });
+    }
+};
+
 }  // namespace
+
+TEST(PictureFinishing, ALorryOfWhichPartsWereFollowedIsOneTrackAndOneBox) {
+    FollowedCab lorry;
+    lorry.finish();
+    const FinishedTracks& finished = lorry.finished;
+    ASSERT_EQ(finished.paths.size(), 1U);
+    EXPECT_EQ(finished.paths[0].id, 1);
+    EXPECT_EQ(finished.paths[0].firstFrame(), 10);
+    EXPECT_EQ(finished.paths[0].lastFrame(), 75);
+    for (const auto& [frame, state] : finished.paths[0].states) {
+        EXPECT_NEAR(state.box.length, 60, 1.6) << frame;
+        EXPECT_NEAR(state.box.centre.x, FollowedCab::frontAt(frame) - 30, 1.2) << frame;
+        EXPECT_FLOAT_EQ(state.score, 0.9F) << frame;
+    }
+    ASSERT_EQ(finished.dropped.size(), 1U);
+    EXPECT_EQ(finished.dropped[0].path.id, 3);
+    EXPECT_EQ(finished.dropped[0].beside, 1);
+    EXPECT_FALSE(finished.evidence.contains(4));
+}
+
+TEST(PictureFinishing, BoxesStayAsLongAsTheyAreWhereNobodyAskedOrItIsDark) {
+    FollowedCab unasked;
+    unasked.options.whole_lorries = false;
+    FollowedCab night;
+    night.brightness = 40;
+    night.paint = 100;
+    for (FollowedCab* lorry : {&unasked, &night}) {
+        lorry->finish();
+        ASSERT_EQ(lorry->finished.paths.size(), 3U);
+        for (const TrackPath& path : lorry->finished.paths)
+            EXPECT_FLOAT_EQ(path.states.back().second.box.length, 20) << path.id;
+    }
+}
 
 TEST(PictureFinishing, WhatIsJoinedKeepsTheOldestIdAndTheBestScore) {
     LostTwice scene;

@@ -1,4 +1,4 @@
-#include "tracking/pictures/silhouette_search.h"
+#include "tracking/silhouettes/silhouette_search.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,14 +41,17 @@ class SilhouetteSearch::Plan {
             for (const TimedPathState* state : momentsOf(path)) {
                 const OrientedBox box = state->second.box;
                 const double metre = scale_.at(box.centre).px(1);
-                Planned look{{path.id, state->first, box, 0, 0, {}},
+                Planned look{{path.id, state->first, box, 0, 0, {}, {}},
                              SilhouetteGrid(box, kMarginAbout * metre, std::max(0.5, kGridStep * metre)),
+                             ExtentGrid(box, metre),
                              {}};
-                addGrounds(look, -1);
-                addGrounds(look, 1);
+                look.others =
+                    closeTo(look.extents, taken_.others(state->first, path.id, kSureVehicle), cv::Matx33d::eye());
+                addGrounds(look, path, -1);
+                addGrounds(look, path, 1);
                 if (look.grounds.empty()) continue;
                 look.last = state->first;
-                for (const auto& [frame, map] : look.grounds) look.last = std::max(look.last, frame);
+                for (const Ground& bare : look.grounds) look.last = std::max(look.last, bare.frame);
                 looks.push_back(std::move(look));
             }
         }
@@ -69,18 +72,30 @@ class SilhouetteSearch::Plan {
     }
 
     /// Goes through the pictures to one side, nearest first.
-    void addGrounds(Planned& look, int direction) const {
+    void addGrounds(Planned& look, const TrackPath& path, int direction) const {
         cv::Matx33d there = cv::Matx33d::eye();
-        int found = 0;
-        for (int gone = 1; gone <= within_ && found < kGroundsASide; ++gone) {
+        int near = 0;
+        int far = 0;
+        for (int gone = 1; gone <= within_ && far < kGroundsASide; ++gone) {
             const FrameIndex frame = look.look.frame + direction * gone;
             const cv::Matx33d* step = ground_.step(frame - direction, frame, false);
             if (step == nullptr) return;
             there = *step * there;
             if (frame % apart_ != 0 || !isBare(look.look.box, there, frame)) continue;
-            look.grounds.emplace_back(frame, there);
-            ++found;
+            const TimedPathState* itself = path.at(frame);
+            const bool is_far = itself == nullptr || !look.extents.mayReach(itself->second.box, there);
+            const bool is_near = near < kGroundsASide;
+            near += is_near ? 1 : 0;
+            far += is_far ? 1 : 0;
+            if (is_near || is_far)
+                look.grounds.push_back({frame, there, closeTo(look.extents, taken_.in(frame), there), is_near, is_far});
         }
+    }
+
+    static std::vector<OrientedBox> closeTo(const ExtentGrid& grid, std::vector<OrientedBox> boxes,
+                                            const cv::Matx33d& map) {
+        std::erase_if(boxes, [&](const OrientedBox& box) { return !grid.mayReach(box, map); });
+        return boxes;
     }
 
     /// Whether no track is near the place of a box, which the map takes into the frame.
@@ -116,7 +131,7 @@ SilhouetteSearch::SilhouetteSearch(const std::vector<TrackPath>& paths, const Gr
     : planned_(Plan(paths, ground, scale).looks()) {
     for (std::size_t i = 0; i < planned_.size(); ++i) {
         wanting_[planned_[i].look.frame].push_back(i);
-        for (const auto& [frame, map] : planned_[i].grounds) wanting_[frame].push_back(i);
+        for (const Ground& bare : planned_[i].grounds) wanting_[bare.frame].push_back(i);
     }
 }
 
@@ -130,22 +145,36 @@ void SilhouetteSearch::show(FrameIndex frame, const cv::Mat& gray) {
 void SilhouetteSearch::take(Planned& planned, FrameIndex frame, const cv::Mat& gray) {
     if (!gray.empty() && frame == planned.look.frame) {
         planned.vehicle = planned.grid.sampled(gray);
+        planned.vehicle_about = planned.extents.sampled(gray, cv::Matx33d::eye(), planned.others, true);
     } else if (!gray.empty()) {
-        const auto way = std::find_if(planned.grounds.begin(), planned.grounds.end(),
-                                      [&](const auto& ground) { return ground.first == frame; });
-        cv::Mat bare = planned.grid.sampled(gray, way->second);
+        const auto ground = std::find_if(planned.grounds.begin(), planned.grounds.end(),
+                                         [&](const Ground& each) { return each.frame == frame; });
+        cv::Mat bare = ground->near ? planned.grid.sampled(gray, ground->way) : cv::Mat();
         if (!bare.empty()) planned.seen.push_back(std::move(bare));
+        ExtentGrid::Sample about = planned.extents.sampled(gray, ground->way, ground->others, false);
+        if (ground->near) planned.near_seen.push_back(about);
+        if (ground->far) planned.far_seen.push_back(std::move(about));
     }
     if (frame != planned.last) return;
-    if (!planned.vehicle.empty() && !planned.seen.empty()) {
-        planned.look.shaded = planned.grid.shadedInBox(planned.vehicle, planned.seen);
-        planned.look.beam = planned.grid.beamInBox(planned.vehicle, planned.seen);
-        planned.look.silhouette = planned.grid.compare(planned.vehicle, planned.seen);
-        looks_.push_back(planned.look);
-    }
+    if (!planned.vehicle.empty() && !planned.seen.empty()) look(planned);
     planned.vehicle.release();
     planned.seen = {};
     planned.grounds = {};
+    planned.others = {};
+    planned.vehicle_about = {};
+    planned.near_seen = {};
+    planned.far_seen = {};
+}
+
+void SilhouetteSearch::look(Planned& planned) {
+    planned.look.shaded = planned.grid.shadedInBox(planned.vehicle, planned.seen);
+    planned.look.beam = planned.grid.beamInBox(planned.vehicle, planned.seen);
+    planned.look.silhouette = planned.grid.compare(planned.vehicle, planned.seen);
+    // The nearest pictures show the ground best, but a long vehicle may still be there, or be there already.
+    const auto by_near = planned.extents.compare(planned.vehicle_about, planned.near_seen);
+    const auto by_far = planned.extents.compare(planned.vehicle_about, planned.far_seen);
+    planned.look.extent = !by_near || (by_far && by_far->whole.length() > by_near->whole.length()) ? by_far : by_near;
+    looks_.push_back(planned.look);
 }
 
 void SilhouetteSearch::readUpTo(FrameIndex frame, const GrayOfFrame& gray_at) {

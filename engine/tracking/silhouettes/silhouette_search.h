@@ -9,7 +9,8 @@
 
 #include "tracking/finishing/track_finishing.h"
 #include "tracking/ground_motion.h"
-#include "tracking/pictures/silhouette_grid.h"
+#include "tracking/silhouettes/extent_grid.h"
+#include "tracking/silhouettes/silhouette_grid.h"
 
 namespace eyrie {
 
@@ -21,6 +22,7 @@ struct SilhouetteLook {
     double shaded = 0;                     ///< share of the box in which it is as a shadow on the ground would be
     double beam = 0;                       ///< share of its length that is lit ground ahead of its lamps
     std::optional<Silhouette> silhouette;  ///< of its vehicle, where one stands out by itself
+    std::optional<VehicleExtent> extent;   ///< of its vehicle, of which the box may hold a part; not at night
 };
 
 /// By track: the median of what its looks say of it, of those that were looked at so often at least.
@@ -42,18 +44,32 @@ class SilhouetteSearch {
     std::vector<SilhouetteLook> finish(const GrayOfFrame& gray_at);
 
  private:
+    /// A picture of the same ground without the vehicle's box.
+    struct Ground {
+        FrameIndex frame = 0;
+        cv::Matx33d way;                  ///< from the picture with the vehicle
+        std::vector<OrientedBox> others;  ///< other vehicles that are close by
+        bool near = false;                ///< among the nearest ones, with which the box is compared …
+        bool far = false;                 ///< … and those that the vehicle is so far from that no part of it is there
+    };
     /// A look of which not all pictures have come.
     struct Planned {
         SilhouetteLook look;
         SilhouetteGrid grid;
-        std::vector<std::pair<FrameIndex, cv::Matx33d>> grounds;  ///< pictures and the way there
-        FrameIndex last = 0;                                      ///< the last one of all
+        ExtentGrid extents;
+        std::vector<OrientedBox> others;  ///< other vehicles that are close by
+        std::vector<Ground> grounds = {};
+        FrameIndex last = 0;  ///< the last picture of all
         cv::Mat vehicle = {};
         std::vector<cv::Mat> seen = {};
+        ExtentGrid::Sample vehicle_about = {};
+        std::vector<ExtentGrid::Sample> near_seen = {};
+        std::vector<ExtentGrid::Sample> far_seen = {};
     };
     class Plan;
 
     void take(Planned& planned, FrameIndex frame, const cv::Mat& gray);
+    void look(Planned& planned);
 
     std::vector<Planned> planned_;
     std::map<FrameIndex, std::vector<std::size_t>> wanting_;  ///< looks, by the pictures that have not come

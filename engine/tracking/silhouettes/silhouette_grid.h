@@ -6,19 +6,9 @@
 #include <vector>
 
 #include "core/geometry/oriented_box.h"
-#include "core/values/ids.h"
+#include "tracking/silhouettes/box_grid.h"
 
 namespace eyrie {
-
-/// Where something ends in the axes of a box, px from its centre: along the heading and across it to the right.
-struct BoxEdges {
-    double rear = 0;
-    double front = 0;
-    double left = 0;
-    double right = 0;
-
-    double area() const { return (front - rear) * (right - left); }
-};
 
 /// How far a vehicle and its shadow reach, as the ground shows it that they cover.
 struct Silhouette {
@@ -50,18 +40,9 @@ class SilhouetteGrid {
     double beamInBox(const cv::Mat& vehicle, const std::vector<cv::Mat>& grounds) const;
 
  private:
-    /// Where a picture differs from all of the ground's, and where it may lie in the shade; 255 or 0.
-    struct Masks {
-        cv::Mat differs, shaded;
-    };
-    /// The places of the box itself.
-    cv::Rect inBox() const;
-    Masks masksOf(const cv::Mat& vehicle, const std::vector<cv::Mat>& grounds) const;
     std::optional<BoxEdges> edgesOf(const cv::Mat& mask) const;
 
-    OrientedBox box_;
-    double step_;
-    cv::Size places_;
+    BoxGrid grid_;
 };
 
 }  // namespace eyrie

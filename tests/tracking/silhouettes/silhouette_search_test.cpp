@@ -1,5 +1,5 @@
 // Which pictures are looked at to see vehicles without and with what lies about them, and what is seen.
-#include "tracking/pictures/silhouette_search.h"
+#include "tracking/silhouettes/silhouette_search.h"
 
 #include <gtest/gtest.h>
 

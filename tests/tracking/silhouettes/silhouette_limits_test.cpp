@@ -1,7 +1,7 @@
 // What a grid takes for a vehicle, on plain pictures whose pixels are its places.
 #include <gtest/gtest.h>
 
-#include "tracking/pictures/silhouette_grid.h"
+#include "tracking/silhouettes/silhouette_grid.h"
 
 namespace eyrie::silhouette_limits_test {
 namespace {

@@ -1,5 +1,5 @@
 // What a silhouette tells of a vehicle and its shadow, on a patch that is known to the pixel.
-#include "tracking/pictures/silhouette_grid.h"
+#include "tracking/silhouettes/silhouette_grid.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,163 @@
+#include "tracking/pictures/long_vehicles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <numeric>
+#include <optional>
+
+#include "core/robust_statistics.h"
+
+namespace eyrie {
+namespace {
+
+constexpr std::size_t kFewestSeen = 5;
+constexpr double kShareOfLooks = 0.5;    ///< in which it stands out
+constexpr double kLargestScatter = 1;    ///< m of an end on which looks agree; where they do not …
+constexpr double kAgreeing = 2.5;        ///< m: … those that lie so close together …
+constexpr double kShareAgreeing = 0.4;   ///< … are enough if they are this share of all …
+constexpr double kFewestAgreeing = 4;    ///< … and so many
+constexpr double kHoldsBox = 0.7;        ///< share of the box that belongs to the vehicle at least
+constexpr double kLonger = 1.4;          ///< than the box: less is not worth a change
+constexpr double kLongerThanCars = 5.5;  ///< m
+constexpr double kLongest = 18;          ///< m
+constexpr double kWidest = 4.2;          ///< m, of the silhouette, with the side that an oblique view shows
+constexpr double kLorryWidth = 2.6;      ///< m, as wide as lorries may be
+constexpr double kSlender = 2;           ///< times as long as wide
+constexpr double kCutLooks = 0.25;       ///< share of looks in which it goes on beyond what was looked at
+constexpr double kSurelyNoShadow = 0.3;  ///< share of what lies beyond the box that is no shadow
+constexpr double kSharedLife = 0.5;      ///< of a part, in which it lies in the whole vehicle …
+constexpr double kInside = 0.8;          ///< … in this share of the frames
+
+/// What the looks at a track say of its vehicle, m from the middle of its box.
+struct LooksAtLength {
+    std::size_t all = 0;
+    std::size_t cut = 0;
+    std::vector<double> rear, front, left, right, width, box_length, box_width, no_shadow;
+};
+
+/// Where a vehicle lies about its box, in lengths and widths of that.
+struct AboutBox {
+    double ahead = 0;  ///< its middle
+    double aside = 0;
+    double length = 1;
+    double width = 1;
+};
+
+std::map<TrackId, LooksAtLength> looksByTrack(const std::vector<SilhouetteLook>& looks,
+                                              const std::vector<CastShadow>& shadows, const GroundTurns& turns,
+                                              const SceneScale& scale) {
+    std::map<TrackId, LooksAtLength> by_track;
+    for (const SilhouetteLook& look : looks) {
+        LooksAtLength& of_track = by_track[look.track];
+        ++of_track.all;
+        if (!look.extent) continue;
+        const bool shadow_known = shadowIn(shadows, turns.at(look.frame).stretch) != nullptr;
+        if (shadow_known && !look.extent->lit) continue;
+        const BoxEdges& edges = shadow_known ? *look.extent->lit : look.extent->whole;
+        const SceneScale here = scale.at(look.box.centre);
+        of_track.cut += look.extent->cut ? 1 : 0;
+        of_track.rear.push_back(here.metres(edges.rear));
+        of_track.front.push_back(here.metres(edges.front));
+        of_track.left.push_back(here.metres(edges.left));
+        of_track.right.push_back(here.metres(edges.right));
+        of_track.width.push_back(here.metres(edges.width()));
+        of_track.box_length.push_back(here.metres(look.box.length));
+        of_track.box_width.push_back(here.metres(look.box.width));
+        of_track.no_shadow.push_back(shadow_known ? 1 : look.extent->lit_beyond);
+    }
+    return by_track;
+}
+
+/// Where looks have an end, on the side to which `way` (1 or −1) points: the usual one, or where they scatter, since a
+/// vehicle may stand out in pieces, the farthest that enough of them agree on; `otherwise` where they do not.
+double endOf(std::vector<double> ends, int way, double otherwise) {
+    const double middle = medianOf(ends);
+    std::vector<double> off;
+    off.reserve(ends.size());
+    for (const double end : ends) off.push_back(std::abs(end - middle));
+    if (medianOf(off) < kLargestScatter) return middle;
+    for (double& end : ends) end *= way;
+    std::sort(ends.begin(), ends.end(), std::greater<>());
+    const double enough = std::max(kFewestAgreeing, kShareAgreeing * static_cast<double>(ends.size()));
+    for (auto farthest = ends.begin(); farthest != ends.end(); ++farthest) {
+        const auto nearest =
+            std::find_if(farthest, ends.end(), [&](double end) { return end < *farthest - kAgreeing; });
+        const auto agreeing = static_cast<double>(nearest - farthest);
+        if (agreeing >= enough) return way * std::accumulate(farthest, nearest, 0.0) / agreeing;
+    }
+    return otherwise;
+}
+
+std::optional<AboutBox> longVehicleIn(const LooksAtLength& looks) {
+    const std::size_t seen = looks.rear.size();
+    if (seen < kFewestSeen || static_cast<double>(seen) < kShareOfLooks * static_cast<double>(looks.all)) return {};
+    if (static_cast<double>(looks.cut) > kCutLooks * static_cast<double>(seen)) return {};
+    if (medianOf(looks.no_shadow) <= kSurelyNoShadow) return {};
+    const double box_length = medianOf(looks.box_length);
+    const double rear = endOf(looks.rear, -1, -box_length / 2);
+    const double front = endOf(looks.front, 1, box_length / 2);
+    const double of_box = std::min(front, box_length / 2) - std::max(rear, -box_length / 2);
+    if (of_box <= kHoldsBox * box_length) return {};
+    const double length = front - rear;
+    const double width = medianOf(looks.width);
+    if (length <= kLonger * box_length || length <= kLongerThanCars || length >= kLongest) return {};
+    if (width >= kWidest || length <= kSlender * width) return {};
+    const double box_width = medianOf(looks.box_width);
+    const double whole_left = std::min(medianOf(looks.left), -box_width / 2);
+    const double whole_right = std::max(medianOf(looks.right), box_width / 2);
+    const double lorry = std::min(whole_right - whole_left, std::max(box_width, kLorryWidth));
+    return AboutBox{(rear + front) / 2 / box_length, (whole_left + whole_right) / 2 / box_width, length / box_length,
+                    lorry / box_width};
+}
+
+/// Whether `part` lies in the box of `whole`.
+bool isPartOf(const TrackPath& part, const TrackPath& whole) {
+    int shared = 0;
+    int inside = 0;
+    for (const auto& [frame, state] : part.states) {
+        const TimedPathState* there = whole.at(frame);
+        if (there == nullptr) continue;
+        const OrientedBox box = there->second.box;
+        const cv::Point2d place = box.toBox(state.box.centre);
+        ++shared;
+        inside += std::abs(place.x) <= box.length / 2 && std::abs(place.y) <= box.width / 2 ? 1 : 0;
+    }
+    return shared >= kSharedLife * static_cast<double>(part.states.size()) && inside >= kInside * shared;
+}
+
+}  // namespace
+
+std::set<TrackId> reachWholeVehicles(std::vector<TrackPath>& paths, const std::vector<SilhouetteLook>& looks,
+                                     const std::vector<CastShadow>& shadows, const GroundTurns& turns,
+                                     const SceneScale& scale) {
+    const std::map<TrackId, LooksAtLength> by_track = looksByTrack(looks, shadows, turns, scale);
+    std::set<TrackId> longer;
+    for (TrackPath& path : paths) {
+        const auto of_track = by_track.find(path.id);
+        if (of_track == by_track.end()) continue;
+        const auto vehicle = longVehicleIn(of_track->second);
+        if (!vehicle) continue;
+        longer.insert(path.id);
+        for (auto& [frame, state] : path.states) {
+            const OrientedBox box = state.box;
+            const cv::Point2d middle = box.toImage({vehicle->ahead * box.length, vehicle->aside * box.width});
+            state.box = OrientedBox{middle, vehicle->length * box.length, vehicle->width * box.width, box.heading};
+        }
+    }
+    return longer;
+}
+
+void dropPartsOf(const std::set<TrackId>& whole, std::vector<TrackPath>& paths, DropList& dropped) {
+    for (const TrackPath& vehicle : paths) {
+        if (!whole.contains(vehicle.id)) continue;
+        for (TrackPath& path : paths) {
+            if (whole.contains(path.id) || path.states.empty() || !isPartOf(path, vehicle)) continue;
+            drop(path, TrackDrop::shares_place, dropped, vehicle.id);
+        }
+    }
+    std::erase_if(paths, [](const TrackPath& path) { return path.states.empty(); });
+}
+
+}  // namespace eyrie

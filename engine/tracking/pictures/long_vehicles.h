@@ -1,0 +1,24 @@
+#pragma once
+
+#include <set>
+#include <vector>
+
+#include "core/values/scene_scale.h"
+#include "tracking/finishing/track_paths.h"
+#include "tracking/pictures/cast_shadow.h"
+#include "tracking/pictures/ground_turns.h"
+#include "tracking/silhouettes/silhouette_search.h"
+
+namespace eyrie {
+
+/// Makes boxes that hold a part of a lorry or a bus as long as it is, as far as most looks at it agree how far it hides
+/// the ground: not beyond other vehicles, and, as long as nothing tells where shadows fall, only where it surely is no
+/// shadow. Not where a vehicle would not be longer than a car. Tells whose boxes it made longer.
+std::set<TrackId> reachWholeVehicles(std::vector<TrackPath>& paths, const std::vector<SilhouetteLook>& looks,
+                                     const std::vector<CastShadow>& shadows, const GroundTurns& turns,
+                                     const SceneScale& scale);
+
+/// Drops tracks that, while they share frames with one of those, which is half of their life or more, lie in its box.
+void dropPartsOf(const std::set<TrackId>& whole, std::vector<TrackPath>& paths, DropList& dropped);
+
+}  // namespace eyrie

@@ -1,0 +1,180 @@
+// When a box is made as long as what hides the ground about it, and whose parts go.
+#include "tracking/pictures/long_vehicles.h"
+
+#include <gtest/gtest.h>
+
+#include "tracking/frame_summaries.h"
+
+namespace eyrie::long_vehicles_test {
+namespace {
+
+constexpr SceneScale kScale{0.2, 25, true};  // 5 px are 1 m
+constexpr double kMetre = 5;
+
+TrackPath pathOf(TrackId id, int frames, cv::Point2d centre = {100, 60}, FrameIndex first = 0) {
+    TrackPath path{id, {}};
+    for (FrameIndex frame = first; frame < first + frames; ++frame) {
+        TrackState state;
+        state.id = id;
+        state.score = 0.9;
+        state.box = {centre + cv::Point2d(2.0 * frame, 0), 4 * kMetre, 2 * kMetre, 0};
+        path.states.emplace_back(frame, PathState(state));
+    }
+    return path;
+}
+
+/// Looks at track 1 whose box is 4 m long and 2 m wide, and what they say, m from its middle.
+struct Looks {
+    std::vector<SilhouetteLook> looks;
+    std::vector<CastShadow> shadows;
+
+    Looks& add(int number, double rear, double front, double lit_beyond = 1, double half_width = 1, bool cut = false) {
+        for (int i = 0; i < number; ++i) {
+            SilhouetteLook look;
+            look.track = 1;
+            look.frame = static_cast<FrameIndex>(looks.size());
+            look.box = {{100 + 2.0 * look.frame, 60}, 4 * kMetre, 2 * kMetre, 0};
+            look.extent = VehicleExtent{
+                {rear * kMetre, front * kMetre, -half_width * kMetre, half_width * kMetre}, {}, lit_beyond, cut};
+            looks.push_back(look);
+        }
+        return *this;
+    }
+    Looks& lit(double rear, double front) {
+        for (SilhouetteLook& look : looks) look.extent->lit = BoxEdges{rear * kMetre, front * kMetre, -kMetre, kMetre};
+        return *this;
+    }
+    /// One that sees nothing stand out.
+    Looks& blind(int number) {
+        for (int i = 0; i < number; ++i) add(1, 0, 0).looks.back().extent.reset();
+        return *this;
+    }
+    /// The box of track 1 in its first frame, m; its centre from where it was.
+    OrientedBox box() const {
+        std::vector<TrackPath> paths{pathOf(1, 30), pathOf(2, 30, {100, 150})};
+        GroundMotion ground;
+        for (FrameIndex frame = 0; frame < 30; ++frame) ground.add(test::summaryOfFrame(frame));
+        const GroundTurns turns(ground, 0, 29);
+        const std::set<TrackId> longer = reachWholeVehicles(paths, looks, shadows, turns, kScale);
+        EXPECT_FLOAT_EQ(paths[1].states[0].second.box.length, 4 * kMetre) << "nobody looked at it";
+        EXPECT_FLOAT_EQ(paths[0].states[0].second.box.length, paths[0].states[29].second.box.length);
+        const OrientedBox box = paths[0].states[0].second.box;
+        EXPECT_EQ(longer, box.length > 4 * kMetre ? std::set<TrackId>{1} : std::set<TrackId>{});
+        return {(box.centre - cv::Point2d(100, 60)) / kMetre, box.length / kMetre, box.width / kMetre, box.heading};
+    }
+    bool changes() const { return box().length > 4.001; }
+};
+
+}  // namespace
+
+TEST(LongVehicles, BoxesReachAsFarAsMostLooksSay) {
+    const OrientedBox box = Looks().add(5, -8, 2).add(2, -2, 2).box();
+    EXPECT_NEAR(box.length, 10, 1e-3);
+    EXPECT_NEAR(box.centre.x, -3, 1e-3);
+    EXPECT_NEAR(box.centre.y, 0, 1e-3);
+    EXPECT_NEAR(box.width, 2, 1e-3);
+}
+
+TEST(LongVehicles, WhereLooksScatterTheFarthestCountsThatEnoughAgreeOn) {
+    // It stands out in two pieces in half of them.
+    const auto in_pieces = [](int whole) {
+        Looks looks;
+        looks.add(whole - 1, -8, 2).add(1, -7.4, 2);
+        for (const double rear : {-0.5, -2.1, -3.7, -5.3}) looks.add(1, rear, 2);
+        return looks;
+    };
+    EXPECT_NEAR(in_pieces(4).box().length, (3 * 8 + 7.4) / 4 + 2, 1e-3);
+    EXPECT_FALSE(in_pieces(3).changes()) << "three are not enough";
+    EXPECT_FALSE(in_pieces(4).add(1, 1, 2).add(1, 2.6, 2).add(1, 4.2, 2).changes()) << "nor is a third of them";
+    const OrientedBox ahead = Looks().add(4, -2, 9).add(1, -2, 3).add(1, -2, 5).add(1, -2, 6).add(1, -2, 1).box();
+    EXPECT_NEAR(ahead.length, 11, 1e-3);
+    EXPECT_NEAR(ahead.centre.x, 3.5, 1e-3);
+}
+
+TEST(LongVehicles, ThereMustBeEnoughLooks) {
+    EXPECT_TRUE(Looks().add(5, -8, 2).changes());
+    EXPECT_FALSE(Looks().add(4, -8, 2).changes());
+    EXPECT_TRUE(Looks().add(5, -8, 2).blind(5).changes());
+    EXPECT_FALSE(Looks().add(5, -8, 2).blind(6).changes());
+    EXPECT_TRUE(Looks().add(6, -8, 2).add(2, -8, 2, 1, 1, true).changes());
+    EXPECT_FALSE(Looks().add(5, -8, 2).add(2, -8, 2, 1, 1, true).changes()) << "more than a quarter goes on beyond";
+}
+
+TEST(LongVehicles, OnlyWhatIsLongerThanACarAndNoStreetIsOne) {
+    EXPECT_FALSE(Looks().add(6, -2, 3.4).changes()) << "5.4 m";
+    EXPECT_TRUE(Looks().add(6, -2.3, 3.4).changes());
+    EXPECT_TRUE(Looks().add(6, -2, 15.9).changes());
+    EXPECT_FALSE(Looks().add(6, -2, 16.1).changes());
+    EXPECT_TRUE(Looks().add(6, -8, 2, 1, 2.05).changes());
+    EXPECT_FALSE(Looks().add(6, -8, 2, 1, 2.15).changes()) << "4.3 m wide";
+    EXPECT_TRUE(Looks().add(6, -4.6, 2, 1, 1.6).changes());
+    EXPECT_FALSE(Looks().add(6, -4.2, 2, 1, 1.6).changes()) << "less than twice as long as wide";
+    EXPECT_FALSE(Looks().add(6, -9, -1).changes()) << "it is another vehicle behind this one";
+    EXPECT_TRUE(Looks().add(6, -8, 1).changes());
+}
+
+TEST(LongVehicles, WhatMayBeAShadowDoesNotCount) {
+    EXPECT_FALSE(Looks().add(6, -8, 2, 0.3).changes());
+    EXPECT_TRUE(Looks().add(6, -8, 2, 0.35).changes());
+}
+
+TEST(LongVehicles, WhereShadowsAreKnownOnlyWhatIsLitCounts) {
+    Looks known;
+    known.add(6, -8, 2, 0.9).lit(-2, 2);
+    EXPECT_TRUE(known.changes());
+    known.shadows = {{0, {1, 0}, 5, 1}};
+    EXPECT_FALSE(known.changes());
+    known.lit(-6, 2);
+    EXPECT_NEAR(known.box().length, 8, 1e-3);
+    for (SilhouetteLook& look : known.looks) look.extent->lit_beyond = 0;
+    EXPECT_TRUE(known.changes()) << "what is lit is no shadow";
+    for (SilhouetteLook& look : known.looks) look.extent->lit.reset();
+    EXPECT_FALSE(known.changes());
+}
+
+TEST(LongVehicles, AreAsWideAsTheySeemAndNoWiderThanLorriesAre) {
+    EXPECT_NEAR(Looks().add(6, -8, 2, 1, 1.15).box().width, 2.3, 1e-3);
+    EXPECT_NEAR(Looks().add(6, -8, 2, 1, 1.8).box().width, 2.6, 1e-3);
+    EXPECT_NEAR(Looks().add(6, -8, 2, 1, 0.5).box().width, 2, 1e-3);
+    Looks aside;
+    aside.add(6, -8, 2);
+    for (SilhouetteLook& look : aside.looks) look.extent->whole.right = 1.6 * kMetre;
+    const OrientedBox box = aside.box();
+    EXPECT_NEAR(box.width, 2.6, 1e-3);
+    EXPECT_NEAR(box.centre.y, 0.3, 1e-3);
+}
+
+TEST(LongVehicles, TracksOfTheirPartsGo) {
+    const auto left = [](const TrackPath& part) {
+        std::vector<TrackPath> paths{pathOf(1, 30), part};
+        DropList dropped;
+        dropPartsOf({1}, paths, dropped);
+        EXPECT_EQ(paths.size() + dropped.size(), 2U);
+        if (!dropped.empty()) {
+            EXPECT_EQ(dropped[0].path.id, part.id);
+            EXPECT_EQ(dropped[0].why, TrackDrop::shares_place);
+            EXPECT_EQ(dropped[0].beside, 1);
+        }
+        return paths.size() == 2;
+    };
+    EXPECT_FALSE(left(pathOf(2, 30, {109, 64})));
+    EXPECT_TRUE(left(pathOf(2, 30, {111, 64}))) << "ahead of it";
+    EXPECT_TRUE(left(pathOf(2, 30, {109, 66}))) << "beside it";
+    EXPECT_FALSE(left(pathOf(2, 20, {100, 60}, 20))) << "half of its life it lies in it";
+    EXPECT_TRUE(left(pathOf(2, 21, {100, 60}, 20)));
+    EXPECT_TRUE(left(pathOf(2, 20, {100, 60}, 40))) << "later";
+    TrackPath passes = pathOf(2, 20, {100, 60});
+    for (std::size_t i = 0; i < 5; ++i) passes.states[i].second.box.centre.y = 90;
+    EXPECT_TRUE(left(passes)) << "three quarters of the frames are not enough";
+    passes.states[4].second.box.centre.y = 60;
+    EXPECT_FALSE(left(passes));
+}
+
+TEST(LongVehicles, WhollySeenOnesDoNotGoForEachOther) {
+    std::vector<TrackPath> paths{pathOf(1, 30), pathOf(2, 30)};
+    DropList dropped;
+    dropPartsOf({1, 2}, paths, dropped);
+    EXPECT_EQ(paths.size(), 2U);
+}
+
+}  // namespace eyrie::long_vehicles_test
