@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
-#include <numeric>
 #include <optional>
 
 #include "core/robust_statistics.h"
@@ -14,10 +12,8 @@ namespace {
 
 constexpr std::size_t kFewestSeen = 5;
 constexpr double kShareOfLooks = 0.5;    ///< in which it stands out
-constexpr double kLargestScatter = 1;    ///< m of an end on which looks agree; where they do not …
-constexpr double kAgreeing = 2.5;        ///< m: … those that lie so close together …
-constexpr double kShareAgreeing = 0.4;   ///< … are enough if they are this share of all …
-constexpr double kFewestAgreeing = 4;    ///< … and so many
+constexpr double kAgreeing = 1;          ///< m between ends on which looks agree …
+constexpr double kShareAgreeing = 0.5;   ///< … as this share of them must
 constexpr double kHoldsBox = 0.7;        ///< share of the box that belongs to the vehicle at least
 constexpr double kLonger = 1.4;          ///< than the box: less is not worth a change
 constexpr double kLongerThanCars = 5.5;  ///< m
@@ -70,24 +66,15 @@ std::map<TrackId, LooksAtLength> looksByTrack(const std::vector<SilhouetteLook>&
     return by_track;
 }
 
-/// Where looks have an end, on the side to which `way` (1 or −1) points: the usual one, or where they scatter, since a
-/// vehicle may stand out in pieces, the farthest that enough of them agree on; `otherwise` where they do not.
-double endOf(std::vector<double> ends, int way, double otherwise) {
-    const double middle = medianOf(ends);
-    std::vector<double> off;
-    off.reserve(ends.size());
-    for (const double end : ends) off.push_back(std::abs(end - middle));
-    if (medianOf(off) < kLargestScatter) return middle;
-    for (double& end : ends) end *= way;
-    std::sort(ends.begin(), ends.end(), std::greater<>());
-    const double enough = std::max(kFewestAgreeing, kShareAgreeing * static_cast<double>(ends.size()));
-    for (auto farthest = ends.begin(); farthest != ends.end(); ++farthest) {
-        const auto nearest =
-            std::find_if(farthest, ends.end(), [&](double end) { return end < *farthest - kAgreeing; });
-        const auto agreeing = static_cast<double>(nearest - farthest);
-        if (agreeing >= enough) return way * std::accumulate(farthest, nearest, 0.0) / agreeing;
+/// Whether most looks have both ends where they usually are: a vehicle is as long in all of them, what passes it is
+/// not.
+bool agree(const LooksAtLength& looks, double rear, double front) {
+    std::size_t agreeing = 0;
+    for (std::size_t i = 0; i < looks.rear.size(); ++i) {
+        const double off = std::max(std::abs(looks.rear[i] - rear), std::abs(looks.front[i] - front));
+        agreeing += off < kAgreeing ? 1 : 0;
     }
-    return otherwise;
+    return static_cast<double>(agreeing) >= kShareAgreeing * static_cast<double>(looks.rear.size());
 }
 
 std::optional<AboutBox> longVehicleIn(const LooksAtLength& looks) {
@@ -96,8 +83,9 @@ std::optional<AboutBox> longVehicleIn(const LooksAtLength& looks) {
     if (static_cast<double>(looks.cut) > kCutLooks * static_cast<double>(seen)) return {};
     if (medianOf(looks.no_shadow) <= kSurelyNoShadow) return {};
     const double box_length = medianOf(looks.box_length);
-    const double rear = endOf(looks.rear, -1, -box_length / 2);
-    const double front = endOf(looks.front, 1, box_length / 2);
+    const double rear = medianOf(looks.rear);
+    const double front = medianOf(looks.front);
+    if (!agree(looks, rear, front)) return {};
     const double of_box = std::min(front, box_length / 2) - std::max(rear, -box_length / 2);
     if (of_box <= kHoldsBox * box_length) return {};
     const double length = front - rear;
@@ -110,6 +98,34 @@ std::optional<AboutBox> longVehicleIn(const LooksAtLength& looks) {
     const double lorry = std::min(whole_right - whole_left, std::max(box_width, kLorryWidth));
     return AboutBox{(rear + front) / 2 / box_length, (whole_left + whole_right) / 2 / box_width, length / box_length,
                     lorry / box_width};
+}
+
+OrientedBox placed(const AboutBox& vehicle, const OrientedBox& box) {
+    return {box.toImage({vehicle.ahead * box.length, vehicle.aside * box.width}), vehicle.length * box.length,
+            vehicle.width * box.width, box.heading};
+}
+
+/// Goes from a state of the whole vehicle to those of a fragment in their order from there, and makes them as long.
+void reachOver(const TimedPathState& whole, const std::vector<TimedPathState*>& fragment, const GroundMotion& ground) {
+    const auto carriedTo = [&](FrameIndex frame) {
+        return ground.carried(movingOf(whole.second), whole.first, frame, true);
+    };
+    const auto seen = std::find_if(fragment.begin(), fragment.end(), [](const TimedPathState* state) {
+        return state->second.origin != StateOrigin::predicted;
+    });
+    if (seen == fragment.end()) return;
+    const auto vehicle = carriedTo((*seen)->first);
+    const OrientedBox part = (*seen)->second.box;
+    if (!vehicle || vehicle->box.length <= part.length) return;
+    const cv::Point2d middle = part.toBox(vehicle->box.centre);
+    const AboutBox about{middle.x / part.length, middle.y / part.width, vehicle->box.length / part.length,
+                         vehicle->box.width / part.width};
+    for (auto state = fragment.begin(); state != seen; ++state) {
+        // What lies between fragments was guessed from both.
+        if (const auto there = carriedTo((*state)->first)) (*state)->second.box = there->box;
+    }
+    for (auto state = seen; state != fragment.end(); ++state)
+        (*state)->second.box = placed(about, (*state)->second.box);
 }
 
 /// Whether `part` lies in the box of `whole`.
@@ -140,13 +156,31 @@ std::set<TrackId> reachWholeVehicles(std::vector<TrackPath>& paths, const std::v
         const auto vehicle = longVehicleIn(of_track->second);
         if (!vehicle) continue;
         longer.insert(path.id);
-        for (auto& [frame, state] : path.states) {
-            const OrientedBox box = state.box;
-            const cv::Point2d middle = box.toImage({vehicle->ahead * box.length, vehicle->aside * box.width});
-            state.box = OrientedBox{middle, vehicle->length * box.length, vehicle->width * box.width, box.heading};
-        }
+        for (auto& [frame, state] : path.states) state.box = placed(*vehicle, state.box);
     }
     return longer;
+}
+
+void reachAlong(TrackPath& path, const std::vector<FrameSpan>& whole, const GroundMotion& ground) {
+    std::vector<TimedPathState*> fragment;
+    const TimedPathState* last_whole = nullptr;
+    auto span = whole.begin();
+    for (TimedPathState& state : path.states) {
+        while (span != whole.end() && state.first > span->second) ++span;
+        if (span == whole.end() || state.first < span->first) {
+            fragment.push_back(&state);
+            continue;
+        }
+        if (last_whole != nullptr) {
+            reachOver(*last_whole, fragment, ground);
+        } else {
+            std::reverse(fragment.begin(), fragment.end());
+            reachOver(state, fragment, ground);
+        }
+        fragment.clear();
+        last_whole = &state;
+    }
+    if (last_whole != nullptr) reachOver(*last_whole, fragment, ground);
 }
 
 void dropPartsOf(const std::set<TrackId>& whole, std::vector<TrackPath>& paths, DropList& dropped) {

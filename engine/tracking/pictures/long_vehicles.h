@@ -1,10 +1,12 @@
 #pragma once
 
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "core/values/scene_scale.h"
 #include "tracking/finishing/track_paths.h"
+#include "tracking/ground_motion.h"
 #include "tracking/pictures/cast_shadow.h"
 #include "tracking/pictures/ground_turns.h"
 #include "tracking/silhouettes/silhouette_search.h"
@@ -17,6 +19,13 @@ namespace eyrie {
 std::set<TrackId> reachWholeVehicles(std::vector<TrackPath>& paths, const std::vector<SilhouetteLook>& looks,
                                      const std::vector<CastShadow>& shadows, const GroundTurns& turns,
                                      const SceneScale& scale);
+
+/// Frames from a first to a last one.
+using FrameSpan = std::pair<FrameIndex, FrameIndex>;
+
+/// Of a track that was joined from fragments, of which those in some spans, in ascending order, are as long as the
+/// vehicle: makes the others as long by how they lie to it where they meet.
+void reachAlong(TrackPath& path, const std::vector<FrameSpan>& whole, const GroundMotion& ground);
 
 /// Drops tracks that, while they share frames with one of those, which is half of their life or more, lie in its box.
 void dropPartsOf(const std::set<TrackId>& whole, std::vector<TrackPath>& paths, DropList& dropped);

@@ -63,9 +63,21 @@ void makeWhole(FinishedTracks& finished, std::vector<SilhouetteLook>& looks, con
                const SceneScale& scale) {
     const std::set<TrackId> longer = reachWholeVehicles(finished.paths, looks, shadows, turns, scale);
     if (longer.empty()) return;
-    joinFollowed(finished, {longer, longer}, ground, options, scale);
-    dropPartsOf(longer, finished.paths, finished.dropped);
-    std::erase_if(looks, [&](const SilhouetteLook& look) { return longer.contains(look.track); });
+    std::vector<std::pair<FrameSpan, TrackId>> spans;
+    for (const TrackPath& path : finished.paths) {
+        if (longer.contains(path.id)) spans.push_back({{path.firstFrame(), path.lastFrame()}, path.id});
+    }
+    const TakenUp taken_up = joinFollowed(finished, {longer, longer}, ground, options, scale);
+    std::map<TrackId, std::vector<FrameSpan>> whole;
+    std::sort(spans.begin(), spans.end());
+    for (const auto& [span, id] : spans) whole[ownerOf(taken_up, id)].push_back(span);
+    for (TrackPath& path : finished.paths) {
+        if (const auto of_path = whole.find(path.id); of_path != whole.end()) reachAlong(path, of_path->second, ground);
+    }
+    std::set<TrackId> lorries;
+    for (const auto& [id, of_path] : whole) lorries.insert(id);
+    dropPartsOf(lorries, finished.paths, finished.dropped);
+    std::erase_if(looks, [&](const SilhouetteLook& look) { return lorries.contains(ownerOf(taken_up, look.track)); });
 }
 
 GroundTurns turnsOf(const std::vector<TrackPath>& paths, const GroundMotion& ground, const SceneScale& scale) {

@@ -75,20 +75,19 @@ TEST(LongVehicles, BoxesReachAsFarAsMostLooksSay) {
     EXPECT_NEAR(box.width, 2, 1e-3);
 }
 
-TEST(LongVehicles, WhereLooksScatterTheFarthestCountsThatEnoughAgreeOn) {
-    // It stands out in two pieces in half of them.
-    const auto in_pieces = [](int whole) {
+TEST(LongVehicles, AreAsLongInHalfOfTheLooks) {
+    // What passes in the next lane is another in each of them.
+    const auto beside_traffic = [](int whole) {
         Looks looks;
-        looks.add(whole - 1, -8, 2).add(1, -7.4, 2);
-        for (const double rear : {-0.5, -2.1, -3.7, -5.3}) looks.add(1, rear, 2);
+        looks.add(whole, -8, 2);
+        for (const double rear : {-4.0, -5.3, -6.6, -9.4, -10.7}) looks.add(1, rear, 2);
         return looks;
     };
-    EXPECT_NEAR(in_pieces(4).box().length, (3 * 8 + 7.4) / 4 + 2, 1e-3);
-    EXPECT_FALSE(in_pieces(3).changes()) << "three are not enough";
-    EXPECT_FALSE(in_pieces(4).add(1, 1, 2).add(1, 2.6, 2).add(1, 4.2, 2).changes()) << "nor is a third of them";
-    const OrientedBox ahead = Looks().add(4, -2, 9).add(1, -2, 3).add(1, -2, 5).add(1, -2, 6).add(1, -2, 1).box();
-    EXPECT_NEAR(ahead.length, 11, 1e-3);
-    EXPECT_NEAR(ahead.centre.x, 3.5, 1e-3);
+    EXPECT_TRUE(beside_traffic(5).changes());
+    EXPECT_FALSE(beside_traffic(4).changes());
+    // Both ends must be there in the same looks.
+    EXPECT_FALSE(Looks().add(3, -8, 2).add(3, -5.5, 2).add(3, -8, 5).changes());
+    EXPECT_TRUE(Looks().add(3, -8, 2).add(3, -7.1, 2).add(3, -8, 2.9).changes());
 }
 
 TEST(LongVehicles, ThereMustBeEnoughLooks) {
@@ -142,6 +141,53 @@ TEST(LongVehicles, AreAsWideAsTheySeemAndNoWiderThanLorriesAre) {
     const OrientedBox box = aside.box();
     EXPECT_NEAR(box.width, 2.6, 1e-3);
     EXPECT_NEAR(box.centre.y, 0.3, 1e-3);
+}
+
+TEST(LongVehicles, FragmentsReachAsFarAsThoseTheyWereJoinedTo) {
+    // The cab, 20 px, is followed, then all of it, 50 px, then its rear; the car drives 2 px a frame.
+    const auto joined = [](const std::set<FrameIndex>& guessed) {
+        TrackPath path = pathOf(1, 30);
+        for (auto& [frame, state] : path.states) {
+            state.velocity = {2, 0};
+            const double x = 100 + 2.0 * frame;
+            if (frame >= 10 && frame < 20) state.box = OrientedBox{{x - 15, 61}, 50, 12, 0};
+            if (frame >= 20) state.box = OrientedBox{{x - 30, 60}, 20, 10, 0};
+            if (!guessed.contains(frame)) continue;
+            state.origin = StateOrigin::predicted;
+            state.box = OrientedBox{{x - 7, 60}, 33, 11, 0};
+        }
+        GroundMotion ground;
+        for (FrameIndex frame = 0; frame < 30; ++frame) ground.add(test::summaryOfFrame(frame));
+        reachAlong(path, {{10, 19}}, ground);
+        return path;
+    };
+    for (const std::set<FrameIndex>& guessed : {std::set<FrameIndex>{}, std::set<FrameIndex>{8, 9, 20}}) {
+        for (const auto& [frame, state] : joined(guessed).states) {
+            EXPECT_NEAR(state.box.centre.x, 85 + 2.0 * frame, 1e-3) << frame;
+            EXPECT_NEAR(state.box.centre.y, 61, 1e-3) << frame;
+            EXPECT_NEAR(state.box.length, 50, 1e-3) << frame;
+            EXPECT_NEAR(state.box.width, 12, 1e-3) << frame;
+        }
+    }
+    std::set<FrameIndex> never_seen;
+    for (FrameIndex frame = 20; frame < 30; ++frame) never_seen.insert(frame);
+    EXPECT_NEAR(joined(never_seen).states[25].second.box.length, 33, 1e-3) << "nothing tells how it lies to it";
+}
+
+TEST(LongVehicles, WhatIsLongerAlreadyAndWhatLiesBetweenTwoSpansIsReachedFromTheEarlierOne) {
+    TrackPath path = pathOf(1, 30);
+    for (auto& [frame, state] : path.states) {
+        state.velocity = {2, 0};
+        if (frame < 5) state.box.length = 50;
+        if (frame >= 20) state.box.length = 60;
+        if (frame >= 25) state.box.length = 70;
+    }
+    GroundMotion ground;
+    for (FrameIndex frame = 0; frame < 30; ++frame) ground.add(test::summaryOfFrame(frame));
+    reachAlong(path, {{0, 4}, {20, 24}}, ground);
+    EXPECT_NEAR(path.states[12].second.box.length, 50, 1e-3);
+    EXPECT_NEAR(path.states[22].second.box.length, 60, 1e-3);
+    EXPECT_NEAR(path.states[27].second.box.length, 70, 1e-3);
 }
 
 TEST(LongVehicles, TracksOfTheirPartsGo) {
