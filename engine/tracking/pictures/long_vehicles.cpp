@@ -14,6 +14,7 @@ constexpr std::size_t kFewestSeen = 5;
 constexpr double kShareOfLooks = 0.5;    ///< in which it stands out
 constexpr double kAgreeing = 1;          ///< m between ends on which looks agree …
 constexpr double kShareAgreeing = 0.5;   ///< … as this share of them must
+constexpr double kCab = 2.8;             ///< m: boxes of smaller things hold no part of a lorry
 constexpr double kHoldsBox = 0.7;        ///< share of the box that belongs to the vehicle at least
 constexpr double kLonger = 1.4;          ///< than the box: less is not worth a change
 constexpr double kLongerThanCars = 5.5;  ///< m
@@ -83,6 +84,7 @@ std::optional<AboutBox> longVehicleIn(const LooksAtLength& looks) {
     if (static_cast<double>(looks.cut) > kCutLooks * static_cast<double>(seen)) return {};
     if (medianOf(looks.no_shadow) <= kSurelyNoShadow) return {};
     const double box_length = medianOf(looks.box_length);
+    if (box_length < kCab) return {};
     const double rear = medianOf(looks.rear);
     const double front = medianOf(looks.front);
     if (!agree(looks, rear, front)) return {};

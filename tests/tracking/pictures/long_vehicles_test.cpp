@@ -112,6 +112,15 @@ TEST(LongVehicles, OnlyWhatIsLongerThanACarAndNoStreetIsOne) {
     EXPECT_TRUE(Looks().add(6, -8, 1).changes());
 }
 
+TEST(LongVehicles, WhatIsSmallerThanACabIsNoPartOfOne) {
+    Looks part;
+    part.add(6, -8, 2);
+    for (SilhouetteLook& look : part.looks) look.box.length = 2.7 * kMetre;
+    EXPECT_FALSE(part.changes()) << "a motorcycle, or what its lamp lights";
+    for (SilhouetteLook& look : part.looks) look.box.length = 2.9 * kMetre;
+    EXPECT_TRUE(part.changes());
+}
+
 TEST(LongVehicles, WhatMayBeAShadowDoesNotCount) {
     EXPECT_FALSE(Looks().add(6, -8, 2, 0.3).changes());
     EXPECT_TRUE(Looks().add(6, -8, 2, 0.35).changes());
