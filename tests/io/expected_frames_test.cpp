@@ -1,4 +1,4 @@
-#include "io/video/expected_frames.h"
+#include "io/video/ahead/expected_frames.h"
 
 #include <gmock/gmock.h>
 
@@ -19,8 +19,8 @@ using testing::ElementsAreArray;
 using testing::Not;
 
 constexpr int kFrames = 1000;
-constexpr std::size_t kFrameBytes = std::size_t{40} * 30 * 4;
-constexpr int kOfDecoder = 4;  ///< frames that a second decoder takes the room of
+constexpr std::size_t kFrameBytes = std::size_t{400} * 300 * 4;
+constexpr int kOfDecoder = 7;  ///< frames that a second decoder takes the room of
 
 bool waitUntil(const std::function<bool()>& holds) {
     for (int tries = 0; tries < 10'000; ++tries) {
@@ -52,7 +52,7 @@ struct Reads {
 class PatientSource : public FrameSource {
  public:
     PatientSource(Reads& reads, int frames) : reads_(reads) {
-        info_.size = {40, 30};
+        info_.size = {400, 300};
         info_.frame_count = frames;
     }
     const VideoInfo& info() const override { return info_; }
@@ -183,7 +183,7 @@ TEST(ExpectedFramesTest, OthersThatAreExpectedInsteadEndTheReadingOfTheFormer) {
 }
 
 TEST(ExpectedFramesTest, AsManyAreReadAsFitBesideWhatIsReadAheadAndTheDecoder) {
-    constexpr int kRoom = 12;
+    constexpr int kRoom = 15;
     constexpr int kAhead = 3;
     Stage stage(kRoom, kAhead);
     stage.cache->get(10);

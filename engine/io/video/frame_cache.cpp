@@ -10,8 +10,10 @@ namespace eyrie {
 
 namespace {
 
-/// Pictures with their colours that are as large as what a decoder keeps for itself, some ten without.
-constexpr int kDecoderPictures = 4;
+/// What a second decoder keeps for itself: some sixteen pictures without colours of their own, and where each frame
+/// lies.
+constexpr std::size_t kDecoderPictures = 6;
+constexpr std::size_t kIndexBytes = 160;  ///< a frame
 
 std::size_t bytesOf(const Frame& frame) {
     return frame.gray.total() * frame.gray.elemSize() + frame.colour.total() * frame.colour.elemSize();
@@ -19,6 +21,12 @@ std::size_t bytesOf(const Frame& frame) {
 
 std::size_t bytesOfFrame(const VideoInfo& info, const FrameCacheOptions& options) {
     return static_cast<std::size_t>(std::max(1, info.size.area())) * (options.with_colour ? 4U : 1U);
+}
+
+/// Frames that would fit instead of a second decoder.
+int framesOfDecoder(const VideoInfo& info, const FrameCacheOptions& options) {
+    const std::size_t index = kIndexBytes * static_cast<std::size_t>(std::max(0, info.frame_count));
+    return static_cast<int>(kDecoderPictures + index / bytesOfFrame(info, options) + 1);
 }
 
 int framesThatFit(const VideoInfo& info, const FrameCacheOptions& options) {
@@ -94,7 +102,8 @@ void FrameCache::expect(std::vector<FrameIndex> frames) {
 
 std::size_t FrameCache::expectedThatFit() const {
     const Window near = window();
-    const int room = capacity_ - (second_decoder_ ? 0 : kDecoderPictures) - (near.last - near.first + 1);
+    const int decoder = second_decoder_ ? 0 : framesOfDecoder(info_, options_);
+    const int room = capacity_ - decoder - (near.last - near.first + 1);
     return std::min(expected_.size(), static_cast<std::size_t>(std::max(0, room)));
 }
 
@@ -111,8 +120,9 @@ std::optional<FrameIndex> FrameCache::nextExpected(const std::stop_token& stop) 
     idle_wake_.wait(lock, stop, [&] { return (next = missingExpected()).has_value(); });
     if (stop.stop_requested()) return std::nullopt;
     if (!std::exchange(second_decoder_, true)) {
-        capacity_ -= kDecoderPictures;
-        max_bytes_ -= kDecoderPictures * bytesOfFrame(info_, options_);
+        const int decoder = framesOfDecoder(info_, options_);
+        capacity_ -= decoder;
+        max_bytes_ -= static_cast<std::size_t>(decoder) * bytesOfFrame(info_, options_);
         makeRoom();
     }
     return next;

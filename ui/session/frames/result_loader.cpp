@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "canvas/drawing/image_convert.h"
-#include "io/video/expected_frames.h"
+#include "io/video/ahead/expected_frames.h"
 #include "io/video/frame_cache.h"
 #include "session/frames/picture_budget.h"
 #include "session/frames/stored_frames.h"

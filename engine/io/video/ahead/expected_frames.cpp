@@ -1,4 +1,4 @@
-#include "io/video/expected_frames.h"
+#include "io/video/ahead/expected_frames.h"
 
 #include <sys/resource.h>
 #include <unistd.h>
