@@ -95,6 +95,20 @@ TEST_F(PartSourceTest, ReadsThePixelsOfTheFilesThemselves) {
     }
 }
 
+TEST_F(PartSourceTest, AReadingIsGivenUpInAnyPart) {
+    const auto source = open();
+    const FrameIndex last = source->info().frame_count - 1;
+    source->read(last, false);
+    bool given_up = true;
+    source->giveUpWhen([&] { return given_up; });
+    for (const FrameIndex frame : {last - 3, 4}) {  // of a part that is open, and of one that is not
+        given_up = true;
+        EXPECT_THROW(source->read(frame, false), ReadingGivenUp);
+        given_up = false;
+        EXPECT_EQ(test::numberIn(source->read(frame, false).gray), frame);
+    }
+}
+
 TEST_F(PartSourceTest, TellsItsParts) {
     const auto source = open();
     const VideoInfo& info = source->info();

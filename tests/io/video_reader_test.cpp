@@ -25,6 +25,15 @@ void PrintTo(const Format& format, std::ostream* out) {
     *out << format.name;
 }
 
+bool readsTo(FrameSource& source, FrameIndex index) {
+    try {
+        source.read(index, false);
+        return true;
+    } catch (const ReadingGivenUp&) {
+        return false;
+    }
+}
+
 class EveryFormat : public testing::TestWithParam<Format> {
  protected:
     std::unique_ptr<FrameSource> open(int frames) {
@@ -74,6 +83,28 @@ TEST_P(EveryFormat, JumpsToExactlyTheFrameAskedFor) {
         EXPECT_EQ(test::numberIn(source->read(i, false).gray), i);
     }
     for (int i = 79; i > 50; --i) EXPECT_EQ(test::numberIn(source->read(i, false).gray), i) << "stepping back";
+}
+
+TEST_P(EveryFormat, AfterAReadingThatWasGivenUpAnyFrameIsWhatItWas) {
+    const auto source = open(80);
+    std::vector<cv::Mat> sequential;
+    sequential.reserve(80);
+    for (int i = 0; i < 80; ++i) sequential.push_back(source->read(i, false).gray);
+    std::mt19937 random(5);
+    int left = 0;
+    int given_up = 0;
+    source->giveUpWhen([&] { return left-- <= 0; });
+    for (int k = 0; k < 60; ++k) {
+        left = static_cast<int>(random() % 20);
+        given_up += readsTo(*source, static_cast<int>(random() % 80)) ? 0 : 1;
+        left = 1000;
+        const int index = static_cast<int>(random() % 80);
+        const cv::Mat gray = source->read(index, false).gray;
+        EXPECT_EQ(test::numberIn(gray), index);
+        const double difference = cv::norm(gray, sequential[static_cast<std::size_t>(index)], cv::NORM_INF);
+        EXPECT_TRUE(difference == 0 || !GetParam().is_exact) << "frame " << index;
+    }
+    EXPECT_TRUE(given_up > 0 || GetParam().options.key_frame_distance == 1);
 }
 
 TEST_P(EveryFormat, RandomAccessGivesThePixelsOfSequentialReading) {

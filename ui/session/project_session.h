@@ -162,6 +162,8 @@ class ProjectSession : public QObject {
     const PictureLook& pictureLook() const { return look_; }
     void setPictureLook(const PictureLook& look);
     void goToFrame(FrameIndex frame);
+    /// Frames that a person may well look at next, the likeliest first: their pictures are read beforehand.
+    void expectFrames(std::vector<FrameIndex> frames);
     void step(int frames);
     void togglePlay();
     /// J, K and L of editors: −1 backwards, 0 stop, +1 forwards; again doubles the speed.

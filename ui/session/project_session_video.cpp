@@ -413,6 +413,10 @@ void ProjectSession::goToFrame(FrameIndex frame) {
     showFrame(limited);
 }
 
+void ProjectSession::expectFrames(std::vector<FrameIndex> frames) {
+    if (media_) loader_.expect(*media_, std::move(frames));
+}
+
 void ProjectSession::step(int frames) {
     playback_.pause();
     goToFrame(current_frame_ + frames);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -59,6 +60,12 @@ struct PictureStamp {
 /// A stamp of a part's container on the clock of the whole video; what does not fit is no stamp.
 std::int64_t shiftedStamp(std::int64_t stamp_us, std::int64_t shift_us);
 
+/// A frame was not read, since who asked for it had something better to do; nothing is wrong with it.
+class ReadingGivenUp : public std::exception {
+ public:
+    const char* what() const noexcept override { return "reading was given up"; }
+};
+
 /// Random access to the frames of a video or image folder, exact to the frame. Not thread-safe: one thread, one source.
 class FrameSource {
  public:
@@ -74,6 +81,9 @@ class FrameSource {
     /// Whether there is more of the video now than when it was opened, since somebody still writes it. Its frames stay
     /// those of then; who wants the others opens it anew.
     virtual bool hasGrown() const noexcept { return false; }
+    /// `given_up` is asked between the pictures that are decoded on the way to a frame; where it says yes, read()
+    /// throws ReadingGivenUp. What reads any frame at once never asks.
+    virtual void giveUpWhen(std::function<bool()> /*given_up*/) {}
 };
 
 /// How a video is opened.

@@ -11,6 +11,7 @@ namespace {
 
 /// Packets to look at after a seek before giving it up; more than any demuxer drops to find its feet.
 constexpr int kPacketsToRecognise = 500;
+/// Whatever the machine: how damaged pictures come out depends on it, and so would results.
 constexpr int kDecodingThreads = 2;
 
 std::uint64_t signature(std::int64_t pts, std::int64_t position, std::int32_t size) {

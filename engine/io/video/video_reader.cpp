@@ -173,6 +173,7 @@ const AVFrame* VideoReader::decodeUpTo(FrameIndex index) {
         start_came_out_ = start_came_out_ || packet == start_;
         picture_frame_ = frame;
         if (frame >= index) return frame == index ? picture_ : nullptr;
+        if (given_up_ && given_up_()) throw ReadingGivenUp();
     }
     picture_frame_ = -1;
     return nullptr;
@@ -190,7 +191,13 @@ const AVFrame& VideoReader::pictureOf(FrameIndex index) {
         start_ = starts[tried];
         start_came_out_ = false;
         decoder_->startAt(start_);
-        const AVFrame* picture = decodeUpTo(index);
+        const AVFrame* picture = nullptr;
+        try {
+            picture = decodeUpTo(index);
+        } catch (const ReadingGivenUp&) {
+            picture_ = nullptr;  // whether what follows from this start is whole was not seen yet
+            throw;
+        }
         if (picture == nullptr) continue;
         const bool lacks_references = (picture->flags & AV_FRAME_FLAG_CORRUPT) != 0;
         const bool still_refreshes = !start_came_out_ && tried < kStartsToRefresh;

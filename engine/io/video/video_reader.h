@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <stop_token>
+#include <utility>
 #include <vector>
 
 #include "io/video/frame_source.h"
@@ -24,6 +26,7 @@ class VideoReader : public FrameSource {
     std::int64_t timeOf(FrameIndex index) const override;
     std::vector<PictureStamp> pictureStamps() const override;
     bool hasGrown() const noexcept override;
+    void giveUpWhen(std::function<bool()> given_up) override { given_up_ = std::move(given_up); }
 
  private:
     void describe(const SourceOptions& options);
@@ -46,6 +49,7 @@ class VideoReader : public FrameSource {
     FrameIndex picture_frame_ = -1;
     int start_ = 0;                ///< packet that decoding last began with
     bool start_came_out_ = false;  ///< the decoder delivered the picture of `start_`
+    std::function<bool()> given_up_;
 };
 
 }  // namespace eyrie

@@ -8,6 +8,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cstdlib>
+#include <mutex>
 #include <set>
 
 #include "canvas/timeline/timeline_view.h"
@@ -95,12 +96,14 @@ class EventsDockTest : public QObject {
     static bool waitForEvents(EventsWindow& window, int least) {
         return QTest::qWaitFor([&] { return window.events().model().rowCount() >= least; }, kPatience_ms);
     }
-    static std::unique_ptr<EventsWindow> windowWithScene(int frames = 60) {
+    static std::unique_ptr<EventsWindow> windowWithScene(int frames = 60,
+                                                         const std::function<void(FrameIndex)>& before_read = {}) {
         auto window = std::make_unique<EventsWindow>();
         window->resize(1280, 720);
         window->show();
         if (!QTest::qWaitForWindowActive(window.get())) return nullptr;
-        return test::openAndWait(window->session(), test::sceneUnderTest(frames)) ? std::move(window) : nullptr;
+        return test::openAndWait(window->session(), test::sceneUnderTest(frames, before_read)) ? std::move(window)
+                                                                                               : nullptr;
     }
     /// Only the first 60 frames are searched.
     static std::unique_ptr<EventsWindow> windowWithEvents(int frames = 60) {
@@ -136,6 +139,38 @@ class EventsDockTest : public QObject {
         QCOMPARE(window->events().panel().currentId(), idAt(*window, 0));
         QVERIFY(test::shows(window->session(), found.frameAt(0)));
         QCOMPARE(window->session().selectedTrack(), std::optional(found.eventAt(0)->tracks.front()));
+    }
+
+    void theFramesOfTheEventsInViewAreReadBeforeTheyAreChosen() {
+        std::mutex mutex;
+        std::set<FrameIndex> read;
+        const auto note = [&](FrameIndex frame) {
+            const std::scoped_lock lock(mutex);
+            read.insert(frame);
+        };
+        const auto is_read = [&](FrameIndex frame) {
+            const std::scoped_lock lock(mutex);
+            return read.contains(frame);
+        };
+        const auto forget = [&] {
+            const std::scoped_lock lock(mutex);
+            read.clear();
+        };
+        const auto window = windowWithScene(60, note);
+        QVERIFY(window);
+        connect(&window->session(), &ProjectSession::runFinished, window.get(), forget);
+        QVERIFY(test::runAndWait(window->session()));
+        lowerLimits(*window);
+        QVERIFY(waitForEvents(*window, 2));
+        const FrameIndex frame = window->events().model().found()->frameAt(0);
+        QVERIFY(frame != window->session().currentFrame());
+        QTRY_VERIFY_WITH_TIMEOUT(is_read(frame), kPatience_ms);
+        QVERIFY(test::shows(window->session(), window->session().currentFrame()));
+        QTest::qWait(500);  // until what has begun has ended
+        forget();
+        window->events().show(idAt(*window, 0));
+        QVERIFY(test::shows(window->session(), frame));
+        QVERIFY(!is_read(frame));
     }
 
     void ofALongVideoTheTimelineShowsTheEventAndFiveSecondsAround() {

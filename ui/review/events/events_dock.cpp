@@ -15,6 +15,7 @@
 #include "review/events/events_panel.h"
 #include "review/events/left_list.h"
 #include "review/pictures/picture_column.h"
+#include "review/pictures/rows_ahead.h"
 #include "review/runs/run_text.h"
 #include "review/zones/zone_review.h"
 #include "review/zones/zones_panel.h"
@@ -83,6 +84,10 @@ EventsDock::EventsDock(const EventsParts& parts)
     new PictureColumn(*panel_, EventsModel::picture_column, parts_.session, [this](int id) {
         const auto place = placeOf(id);
         return place && model_->found() ? placeOfEvent(*model_->found(), *place) : std::nullopt;
+    });
+    new RowsAhead(*panel_, parts_.session, [this](int id) {
+        const auto place = placeOf(id);
+        return place && model_->found() ? std::optional(model_->found()->frameAt(*place)) : std::nullopt;
     });
     wireLists();
     bindCommands();

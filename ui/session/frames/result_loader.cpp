@@ -2,9 +2,11 @@
 
 #include <chrono>
 #include <exception>
+#include <string>
 #include <utility>
 
 #include "canvas/drawing/image_convert.h"
+#include "io/video/ahead/expected_frames.h"
 #include "io/video/frame_cache.h"
 #include "session/frames/picture_budget.h"
 #include "session/frames/stored_frames.h"
@@ -44,7 +46,20 @@ class ResultLoader::Worker {
         }
     }
 
-    void close() { pictures_.reset(); }
+    void close() {
+        expected_.reset();
+        pictures_.reset();
+    }
+
+    void expect(const Media& media, std::vector<FrameIndex> frames) {
+        if (!pictures_) return;
+        if (!frames.empty() && (!expected_ || expected_of_ != media.identity)) {
+            expected_of_ = media.identity;
+            expected_ = std::make_unique<ExpectedFrames>(
+                *pictures_, [open = media.open](const std::stop_token& stop) { return open({}, stop); });
+        }
+        pictures_->expect(std::move(frames));
+    }
 
     void useRun(const std::optional<RunReference>& run, int trail_length) {
         frames_.reset();
@@ -93,6 +108,8 @@ class ResultLoader::Worker {
 
     ResultLoader& owner_;
     std::unique_ptr<FrameCache> pictures_;
+    std::string expected_of_;                   ///< identity of the media
+    std::unique_ptr<ExpectedFrames> expected_;  ///< after the cache
     std::unique_ptr<StoredFrames> frames_;
     PictureLook look_;
 };
@@ -127,6 +144,12 @@ void ResultLoader::useRun(std::optional<RunReference> run, int trail_length) {
 
 void ResultLoader::setLook(const PictureLook& look) {
     query_.post([worker = worker_.get(), look](const BackgroundTask&) { worker->setLook(look); });
+}
+
+void ResultLoader::expect(const Media& media, std::vector<FrameIndex> frames) {
+    query_.post([worker = worker_.get(), media, frames = std::move(frames)](const BackgroundTask&) {
+        worker->expect(media, frames);
+    });
 }
 
 void ResultLoader::request(FrameIndex frame, int direction) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <stop_token>
+#include <vector>
 
 #include "canvas/view_frame.h"
 #include "correction/corrected_tracks.h"
@@ -41,6 +42,9 @@ class ResultLoader : public QObject {
     void useRun(std::optional<RunReference> run, int trail_length);
     /// How pictures are shown, from the next request on.
     void setLook(const PictureLook& look);
+    /// Frames whose pictures may well be asked for next, the likeliest first, in place of those before: they are read
+    /// while nothing else is wanted, as far as there is room. `media` is the video that is open.
+    void expect(const Media& media, std::vector<FrameIndex> frames);
     /// Answers with frameLoaded(), unless a newer request comes first. `direction` −1, 0 or 1 says what to read ahead.
     void request(FrameIndex frame, int direction);
 

@@ -180,6 +180,7 @@ VideoReader& PartSource::readerOf(std::size_t number) const {
     auto reader = std::make_unique<VideoReader>(part.file, options_, IndexProgress(), std::stop_token());
     if (reader->info().frame_count != part.frame_count || reader->info().size != info_.size)
         throw Error(ErrorKind::input, part.file.string() + ": the file has changed since it was opened; open it again");
+    reader->giveUpWhen(given_up_);
     open_.push_front({number, std::move(reader)});
     if (open_.size() > kMostOpen) open_.pop_back();
     return *open_.front().reader;
@@ -208,6 +209,11 @@ std::int64_t PartSource::timeOf(FrameIndex index) const {
 bool PartSource::hasGrown() const noexcept {
     return std::any_of(listed_.begin(), listed_.end(),
                        [](const ListedPart& part) { return stateOf(part.file).size > part.bytes; });
+}
+
+void PartSource::giveUpWhen(std::function<bool()> given_up) {
+    given_up_ = std::move(given_up);
+    for (const OpenPart& part : open_) part.reader->giveUpWhen(given_up_);
 }
 
 std::vector<PictureStamp> PartSource::pictureStamps() const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <list>
 #include <memory>
 #include <vector>
@@ -27,6 +28,7 @@ class PartSource : public FrameSource {
     std::int64_t timeOf(FrameIndex index) const override;
     std::vector<PictureStamp> pictureStamps() const override;
     bool hasGrown() const noexcept override;
+    void giveUpWhen(std::function<bool()> given_up) override;
 
     /// The parts with all that is known of them now.
     const std::vector<ListedPart>& listed() const { return listed_; }
@@ -57,6 +59,7 @@ class PartSource : public FrameSource {
     int rated_frames_ = 0;  ///< of these
     bool rates_differ_ = false;
     mutable std::list<OpenPart> open_;  ///< used last first
+    std::function<bool()> given_up_;
 };
 
 /// Opens a list of parts. Throws as openSource() does.
