@@ -15,21 +15,24 @@ constexpr double kLongestOut = 0.5;         ///< share of the length that is tak
 
 }  // namespace
 
-void takeOutBeams(std::vector<TrackPath>& paths, const std::vector<SilhouetteLook>& looks) {
+BeamFinding takeOutBeams(std::vector<TrackPath>& paths, const std::vector<SilhouetteLook>& looks) {
     const std::map<TrackId, double> beams = usualByTrack(looks, &SilhouetteLook::beam, kFewestLookedAt);
     const auto lit =
         std::count_if(beams.begin(), beams.end(), [](const auto& beam) { return beam.second >= kClearBeam; });
-    if (lit < kFewestLit || static_cast<double>(lit) < kMostLit * static_cast<double>(beams.size())) return;
+    if (lit < kFewestLit || static_cast<double>(lit) < kMostLit * static_cast<double>(beams.size())) return {};
+    BeamFinding finding{static_cast<int>(lit), {}};
     for (TrackPath& path : paths) {
         const auto beam = beams.find(path.id);
         if (beam == beams.end()) continue;
         const double share = std::clamp(beam->second - kLampsWithin, 0.0, kLongestOut);
+        if (share > 0) finding.trims[path.id] = {LightOutcome::beams, share, 0, share};
         for (auto& [frame, state] : path.states) {
             const OrientedBox box = state.box;
             const double out = share * box.length;
             state.box = OrientedBox{box.toImage({-out / 2, 0}), box.length - out, box.width, box.heading};
         }
     }
+    return finding;
 }
 
 }  // namespace eyrie

@@ -1,14 +1,22 @@
 #pragma once
 
+#include <map>
 #include <vector>
 
+#include "core/evidence/light_finding.h"
 #include "tracking/finishing/track_paths.h"
 #include "tracking/pictures/silhouette_search.h"
 
 namespace eyrie {
 
+/// What headlights were found to light.
+struct BeamFinding {
+    int vehicles = 0;                  ///< that have a beam, surely; 0 where none was taken out
+    std::map<TrackId, BoxTrim> trims;  ///< what was taken out of which boxes
+};
+
 /// Takes what headlights throw on the ground ahead of vehicles out of the front of their boxes, as much of it as looks
 /// show to be in each track's. Nothing where few tracks have lights, as by day.
-void takeOutBeams(std::vector<TrackPath>& paths, const std::vector<SilhouetteLook>& looks);
+BeamFinding takeOutBeams(std::vector<TrackPath>& paths, const std::vector<SilhouetteLook>& looks);
 
 }  // namespace eyrie

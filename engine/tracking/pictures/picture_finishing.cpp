@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "tracking/finishing/frames_of.h"
 #include "tracking/finishing/track_paths.h"
 #include "tracking/pictures/cast_shadow.h"
 #include "tracking/pictures/headlight_beams.h"
+#include "tracking/pictures/light_telling.h"
 
 namespace eyrie {
 namespace {
@@ -63,8 +65,12 @@ GroundTurns turnsOf(const std::vector<TrackPath>& paths, const GroundMotion& gro
 void finishByPictures(FinishedTracks& finished, const GroundMotion& ground, const FinishingOptions& options,
                       const SceneScale& scale, const GrayOfFrame& gray_at) {
     std::vector<TrackPath>& paths = finished.paths;
-    if (!gray_at || paths.empty()) return;
+    if (!gray_at || paths.empty()) {
+        finished.light = untoldLight(paths, LightOutcome::no_pictures);
+        return;
+    }
     if (!options.trim_shadows || !hasMetricLimits(scale)) {
+        finished.light = untoldLight(paths, options.trim_shadows ? LightOutcome::no_scale : LightOutcome::switched_off);
         followOn(finished, ground, options, scale, gray_at);
         return;
     }
@@ -79,11 +85,19 @@ void finishByPictures(FinishedTracks& finished, const GroundMotion& ground, cons
     std::vector<SilhouetteLook> looks = search.finish(gray_at);
     for (SilhouetteLook& look : looks) look.track = ownerOf(taken_up, look.track);
     const GroundTurns turns = turnsOf(paths, ground, scale);
-    const std::vector<CastShadow> shadows = castShadows(looks, turns, scale);
+    const std::vector<StretchLight> light = readLight(looks, turns, scale);
+    const std::vector<CastShadow> shadows = shadowsOf(light);
+    const std::size_t dropped_before = finished.dropped.size();
     if (options.drop_shadows) dropShadowTracks(paths, looks, shadows, turns, scale, finished.dropped);
-    takeOutShadows(paths, looks, shadows, turns, scale);
+    std::vector<TrackPath> mere_shadows;
+    for (std::size_t i = dropped_before; i < finished.dropped.size(); ++i)
+        mere_shadows.push_back(finished.dropped[i].path);
+    std::map<TrackId, BoxTrim> trims = takeOutShadows(paths, looks, shadows, turns, scale);
+    finished.light = toldShadows(light, turns, scale, paths, std::move(trims), mere_shadows);
     // Where the sun casts shadows headlights light nothing, and what seems to be lit ahead is a bright vehicle.
-    if (shadows.empty()) takeOutBeams(paths, looks);
+    if (!shadows.empty()) return;
+    BeamFinding beams = takeOutBeams(paths, looks);
+    if (beams.vehicles > 0) finished.light = toldBeams(std::move(beams), turns);
 }
 
 }  // namespace eyrie
