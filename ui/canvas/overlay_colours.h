@@ -48,7 +48,6 @@ inline OverlayColours overlayColours(PaletteKind kind) {
                 .non_vehicle = QColor(0, 114, 178),
                 .zone = QColor(120, 180, 255),
                 .north = QColor(250, 250, 245),
-                .shadow = QColor(240, 205, 160),
                 .shadow = QColor(240, 215, 185),
                 .edge = edge};
     // The text has corners in red (Teutsch fig. 4.3) and detections, too (figs. 6.3, 7.15, 7.20). Here both may be
@@ -67,6 +66,7 @@ inline OverlayColours overlayColours(PaletteKind kind) {
             .non_vehicle = QColor(255, 160, 40),
             .zone = QColor(120, 180, 255),
             .north = QColor(250, 250, 245),
+            .shadow = QColor(240, 205, 160),
             .edge = edge};
 }
 
