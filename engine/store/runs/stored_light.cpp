@@ -14,25 +14,25 @@
 namespace eyrie {
 namespace {
 
-double share(RowReader& row, const char* what) {
+double shareFrom(RowReader& row, const char* what) {
     const double value = row.real();
     if (!(value >= 0 && value <= 1)) throw MalformedRow{std::string("an impossible ") + what};
     return value;
 }
 
-double length(RowReader& row, const char* what) {
+double lengthFrom(RowReader& row, const char* what) {
     const double value = row.real();
     if (!(value >= 0 && std::isfinite(value))) throw MalformedRow{std::string("an impossible ") + what};
     return value;
 }
 
-double heading(RowReader& row) {
+double headingFrom(RowReader& row) {
     const double degrees = row.real();
     if (!(degrees >= 0 && degrees < 360)) throw MalformedRow{"an impossible direction of shadows"};
     return wrapPi(radiansFromDegrees(degrees));
 }
 
-int count(RowReader& row, const char* what) {
+int countFrom(RowReader& row, const char* what) {
     const int value = row.integer();
     if (value < 0) throw MalformedRow{std::string("an impossible number of ") + what};
     return value;
@@ -45,16 +45,16 @@ LightFinding readFinding(RowReader& row) {
     if (finding.first_frame < 0 || finding.last_frame < finding.first_frame || finding.last_frame > kLastFrame)
         throw MalformedRow{"shadows in frames outside every video"};
     finding.outcome = row.word(stored::kLightOutcomes);
-    finding.heading = heading(row);
-    finding.reach_m = length(row, "reach of shadows");
-    finding.scatter_m = length(row, "scatter of shadows");
-    finding.vehicles = count(row, "vehicles");
-    finding.agreement = share(row, "agreement about shadows");
+    finding.heading = headingFrom(row);
+    finding.reach_m = lengthFrom(row, "reach of shadows");
+    finding.scatter_m = lengthFrom(row, "scatter of shadows");
+    finding.vehicles = countFrom(row, "vehicles");
+    finding.agreement = shareFrom(row, "agreement about shadows");
     const double darkening = row.real();
     if (darkening < 0 || darkening > 1) throw MalformedRow{"an impossible darkness of shadows"};
     if (!std::isnan(darkening)) finding.darkening = darkening;
-    finding.trimmed = count(row, "tracks");
-    finding.dropped = count(row, "tracks");
+    finding.trimmed = countFrom(row, "tracks");
+    finding.dropped = countFrom(row, "tracks");
     return finding;
 }
 
@@ -63,9 +63,9 @@ BoxTrim readTrim(RowReader& row) {
     trim.what = row.word(stored::kLightOutcomes);
     if (trim.what != LightOutcome::shadows && trim.what != LightOutcome::beams)
         throw MalformedRow{"something else than shadows and beams in boxes"};
-    trim.along = share(row, "share of a box");
-    trim.across = share(row, "share of a box");
-    trim.taken = share(row, "share of a box");
+    trim.along = shareFrom(row, "share of a box");
+    trim.across = shareFrom(row, "share of a box");
+    trim.taken = shareFrom(row, "share of a box");
     return trim;
 }
 
@@ -107,8 +107,8 @@ std::optional<FrameShadow> StoredLight::shadowIn(int run_id, FrameIndex frame) c
         RowReader row(statement);
         FrameShadow shadow;
         shadow.frame = frame;
-        shadow.heading = heading(row);
-        shadow.reach_px = length(row, "reach of shadows");
+        shadow.heading = headingFrom(row);
+        shadow.reach_px = lengthFrom(row, "reach of shadows");
         return shadow;
     });
 }

@@ -9,9 +9,9 @@ namespace eyrie::ui {
 
 namespace {
 
-constexpr double kHead = 6;         ///< logical px
-constexpr double kHeadAngle = 2.6;  ///< radians between the arrow and the sides of its head
-constexpr double kShortest = 4;     ///< logical px; an arrow of less is a dot
+constexpr double kArrowHead = 6;      ///< logical px
+constexpr double kArrowSpread = 2.6;  ///< radians between the arrow and the sides of its head
+constexpr double kShortestArrow = 4;  ///< logical px; an arrow of less is a dot
 
 /// Of the selected track, or else of each one that is shown: the outline of its box with the shadow that is predicted
 /// for it, and an arrow along it.
@@ -43,11 +43,11 @@ class ShadowLayer : public OverlayLayer {
     }
     static void appendArrow(QVector<QLineF>& lines, cv::Point2d from, cv::Point2d to, const OverlayScene& scene) {
         const QLineF shaft(inView(from, scene), inView(to, scene));
-        if (shaft.length() < kShortest) return;
+        if (shaft.length() < kShortestArrow) return;
         const double angle = std::atan2(shaft.dy(), shaft.dx());
         lines.append(shaft);
-        for (const double side : {angle + kHeadAngle, angle - kHeadAngle})
-            lines.append({shaft.p2(), shaft.p2() + kHead * QPointF(std::cos(side), std::sin(side))});
+        for (const double side : {angle + kArrowSpread, angle - kArrowSpread})
+            lines.append({shaft.p2(), shaft.p2() + kArrowHead * QPointF(std::cos(side), std::sin(side))});
     }
 };
 
