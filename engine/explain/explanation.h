@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "chain/chain.h"
+#include "core/evidence/light_finding.h"
 #include "motion/clusters/clustering_trace.h"
 #include "motion/vectors/corner_verdict.h"
 #include "removal/removal_trace.h"
@@ -46,6 +47,8 @@ struct PlaceEvidence {
     std::optional<TrackingTrace> tracking;    ///< nothing: not looked at
     std::vector<TrackState> unfinished;       ///< tracks before they were finished; for `tracking`
     std::map<TrackId, TrackEvidence> judged;  ///< what speaks for the finished tracks here, and those left out
+    std::optional<FrameShadow> shadow;        ///< where shadows fall to in the frame; nothing: not known
+    std::map<TrackId, BoxTrim> trims;         ///< what was taken out of the boxes of the finished tracks
 };
 
 /// Goes through the stages of the chain at one place and names the parameter that decided. `options` and `scale` are

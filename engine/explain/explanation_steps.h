@@ -44,6 +44,10 @@ bool tellRemoval(Story& story, std::vector<int>& detections);
 /// What speaks for a finished track, and against it; nothing where it has no score. `fate`: passed where the track is
 /// in the result, failed where its score kept it out, note where something else did.
 void tellScore(Story& story, TrackId track, StepVerdict fate);
+/// What was taken out of the boxes of a finished track, and how shadows fall there; nothing where nothing was.
+void tellTrim(Story& story, TrackId track);
+/// How shadows fall where a track was left out as one; nothing where that is not known.
+void tellShadowHere(Story& story);
 /// What the tracker did with what is left in `detections`, or had there without any.
 void tellTracks(Story& story, const std::vector<int>& detections, const std::optional<DroppedState>& left_out);
 /// The track at the place that was left out of the result, or would be as it is not confirmed; nothing where one was

@@ -135,12 +135,14 @@ void decideLeftOut(Story& story, const DroppedState& left_out) {
 
 void tellTracks(Story& story, const std::vector<int>& detections, const std::optional<DroppedState>& left_out) {
     const PlaceEvidence& evidence = story.evidence;
+    if (left_out && left_out->why == TrackDrop::shadow) tellShadowHere(story);
     if (evidence.tracking) tellRows(story, *evidence.tracking, detections);
     const TrackState* stored = storedTrackAt(evidence);
     if (stored != nullptr) {
         story.pass("tracks", "track " + std::to_string(stored->id) + ": " + nameOf(stored->status) + ", " +
                                  nameOf(stored->origin) + ", detected in " + std::to_string(stored->hits) + " of " +
                                  std::to_string(stored->age + 1) + " frames");
+        tellTrim(story, stored->id);
         tellScore(story, stored->id, StepVerdict::passed);
         return;
     }

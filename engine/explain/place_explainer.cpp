@@ -51,6 +51,12 @@ bool PlaceExplainer::gather(FrameIndex frame, const std::stop_token& stop) {
             if (dropped.why != TrackDrop::unconfirmed) judge(dropped.id);
         }
     }
+    if (source_.shadow_of) evidence_.shadow = source_.shadow_of(frame);
+    if (source_.trim_of) {
+        for (const TrackState& track : stored->tracks) {
+            if (const auto trim = source_.trim_of(track.id)) evidence_.trims[track.id] = *trim;
+        }
+    }
     evidence_.clustering = replay_.clustering();
     evidence_.removal = replay_.removal();
     const int reach = MotionWindow::reachFor(source_.options.motion, source_.scale);

@@ -37,6 +37,7 @@ void tellWhat(ReportPage& page, const RunEvaluation& e, const ReportOptions& opt
                       fixedText(run.scale.frame_rate_hz, 3) + " frames/s" + (run.rate_assumed ? " (assumed)" : ""));
     fact("Scale", (run.scale.gsd_known ? "" : "not known; worked with ") +
                       describe(run.scale, run.scale_basis, run.sequence.size));
+    if (const std::string light = describe(run.light, run.scale); !light.empty()) fact("Light", light);
     fact("Run", std::to_string(run.id) + (run.name.empty() ? "" : ", " + run.name) + ", frames " +
                     std::to_string(run.first_frame) + " to " + std::to_string(run.first_frame + run.frames_done - 1) +
                     ", started " + run.started_utc + ", Eyrie " + run.engine_version);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "chain/chain.h"
+#include "core/evidence/light_finding.h"
 
 namespace eyrie {
 
@@ -20,6 +21,8 @@ struct ReplaySource {
     std::function<std::optional<FrameMotion>(FrameIndex)> motion_of{};   ///< nothing: the run has no such frame
     std::function<std::optional<FrameResult>(FrameIndex)> result_of{};   ///< all of a frame; for explanations only
     std::function<std::optional<TrackEvidence>(TrackId)> evidence_of{};  ///< what speaks for a track; the same
+    std::function<std::optional<FrameShadow>(FrameIndex)> shadow_of{};   ///< where shadows fall to; the same
+    std::function<std::optional<BoxTrim>(TrackId)> trim_of{};            ///< what was taken out of its boxes; the same
 };
 
 /// How many frames before play a part in what is found in one frame from given motion vectors.

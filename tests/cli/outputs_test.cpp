@@ -264,6 +264,46 @@ TEST_F(Outputs, NamesNeedNotBeUtf8) {
     EXPECT_EQ(call({"import", "@odd.xml", "--show"}).exit_code, 0) << "read as UTF-8";
 }
 
+TEST_F(Outputs, InfoTellsHowShadowsFallInARunInWordsAndDegrees) {
+    const fs::path project = folder_ / "lit.eyrie";
+    RunRecord planned;
+    planned.sequence = {.path = "/nowhere/a.mp4", .size = {320, 240}, .frame_count = 4, .frame_rate_hz = 25};
+    planned.scale = {0.345, 25, true};
+    planned.last_frame = 3;
+    ProjectFile::create(project);
+    ResultWriter writer(project, planned, {});
+    writer.finish(RunState::finished, "");
+    const int run = writer.runId();
+    ASSERT_EQ(nlohmann::json::parse(call({"info", "@lit.eyrie", "--json"}).output)["runs"][0]["light"].size(), 0U);
+    EXPECT_THAT(call({"info", "@lit.eyrie"}).output, testing::Not(HasSubstr("light:")));
+    {
+        ProjectFile file = ProjectFile::open(project);
+        TracksOfRun tracks;
+        LightFinding finding;
+        finding.last_frame = 3;
+        finding.heading = -1.5707963267948966;
+        finding.reach_m = 3.45;
+        finding.vehicles = 9;
+        finding.agreement = 1;
+        tracks.light.findings = {finding};
+        RunStore(file).replaceTracks(run, tracks);
+    }
+    EXPECT_THAT(call({"info", "@lit.eyrie"}).output,
+                HasSubstr("    light: shadows fall to 270° (up) in frame 0, 3.5 m beyond most vehicles: 9 vehicles say "
+                          "so, 100 % of what they say agrees\n"));
+    const auto told = nlohmann::json::parse(call({"info", "@lit.eyrie", "--json"}).output)["runs"][0];
+    ASSERT_EQ(told["light"].size(), 1U);
+    const auto& light = told["light"][0];
+    EXPECT_EQ(light["outcome"], "shadows");
+    EXPECT_NEAR(light["heading_deg"].get<double>(), 270, 1e-9);
+    EXPECT_NEAR(light["reach_m"].get<double>(), 3.45, 1e-9);
+    EXPECT_NEAR(light["reach_px"].get<double>(), 10, 1e-9);
+    EXPECT_EQ(light["vehicles"], 9);
+    EXPECT_TRUE(light["darkening"].is_null());
+    EXPECT_EQ(light["last_frame"], 3);
+    EXPECT_THAT(told["light_in_words"].get<std::string>(), HasSubstr("270°"));
+}
+
 TEST_F(Outputs, FoldersAndNamesThatCannotBeLookedAtAreNoDefect) {
     fs::create_symlink(at("loop"), at("loop"));
     const std::string longest = at(std::string(300, 'n'));

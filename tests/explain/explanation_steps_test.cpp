@@ -416,4 +416,31 @@ TEST(ExplanationSteps, ATrackWithoutADetectionSaysWhatIsMissing) {
 }
 
 }  // namespace
+TEST(ExplanationSteps, AShadowThatWasLeftOutIsToldWithItsVehicleAndWhereShadowsFall) {
+    PlaceEvidence evidence = clustered();
+    evidence.result.dropped = {{7, {{100, 100}, 18, 7, 0}, TrackDrop::shadow, 3}};
+    EXPECT_THAT(linesOf(told(evidence), "tracks"), Not(Contains(HasSubstr("shadows fall"))));
+    evidence.shadow = FrameShadow{0, 0, 6};
+    const Explanation explanation = told(evidence);
+    EXPECT_THAT(explanation.sentence, HasSubstr("track 7 drives beside track 3"));
+    EXPECT_EQ(explanation.drop, TrackDrop::shadow);
+    EXPECT_THAT(linesOf(explanation, "tracks"),
+                Contains("· shadows fall to 0° (to the right), 1.5 m beyond most vehicles in this frame "
+                         "@finishing.drop_shadows"));
+    evidence.result.dropped[0].why = TrackDrop::unlikely;
+    EXPECT_THAT(linesOf(told(evidence), "tracks"), Not(Contains(HasSubstr("shadows fall"))));
+}
+
+TEST(ExplanationSteps, WhatWasTakenOutOfTheBoxesOfATrackIsTold) {
+    PlaceEvidence evidence = clustered();
+    evidence.result.tracks = {stateAt(4, 100, TrackStatus::confirmed)};
+    evidence.shadow = FrameShadow{0, 0, 6};
+    evidence.trims[5] = {LightOutcome::shadows, 0.5, 0.5, 0.2};
+    EXPECT_THAT(linesOf(told(evidence), "tracks"), Not(Contains(HasSubstr("taken out of its boxes"))));
+    evidence.trims[4] = {LightOutcome::beams, 0.3, 0, 0.3};
+    EXPECT_THAT(linesOf(told(evidence), "tracks"),
+                Contains("· what its headlights light was taken out of its boxes: 30 % of their area "
+                         "@finishing.trim_shadows"));
+}
+
 }  // namespace eyrie::explanation_steps_test

@@ -63,6 +63,23 @@ TEST(PlaceExplainer, tellsWhatSpeaksForTheTrackWhereTheRunKnows) {
     }));
 }
 
+TEST(PlaceExplainer, tellsHowMuchOfTheBoxesWasTakenAsShadowAndWhereThatFalls) {
+    Fixture run;
+    ReplaySource source = run.replaySource();
+    source.trim_of = [](TrackId) { return std::optional(BoxTrim{LightOutcome::shadows, 0.5, 0.5, 0.2}); };
+    source.shadow_of = [](FrameIndex frame) { return std::optional(FrameShadow{frame, 0, 10}); };
+    PlaceExplainer explainer(std::move(source));
+    const auto told = explainer.explain(35, run.vehicle(0, 35), {});
+    ASSERT_TRUE(told && told->found);
+    EXPECT_TRUE(std::any_of(told->steps.begin(), told->steps.end(), [](const ExplanationStep& step) {
+        return step.text ==
+                   "its shadow was taken out of its boxes: 20 % of their area; shadows fall to 0° (to the right), 2.0 "
+                   "m "
+                   "beyond most vehicles in this frame" &&
+               step.parameter == "finishing.trim_shadows" && step.verdict == StepVerdict::note;
+    }));
+}
+
 TEST(PlaceExplainer, tellsWhatWasFoundAndWhy) {
     Fixture run;
     PlaceExplainer explainer(run.replaySource());

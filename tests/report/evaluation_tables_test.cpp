@@ -145,6 +145,11 @@ TEST(EvaluationTables, FactsOfTheRun) {
     EXPECT_THAT(html, HasSubstr("<title>Evaluation of run 3, street.mp4</title>"));
     EXPECT_THAT(html, Not(HasSubstr("(assumed)")));
     EXPECT_THAT(html, Not(HasSubstr("not known; worked with")));
+    EXPECT_THAT(html, Not(HasSubstr("<b>Light</b>"))) << "nothing is known of shadows";
+    LightFinding light;
+    light.outcome = LightOutcome::shaded_sides;
+    light.vehicles = 6;
+    e.run.light = {light};
     e.run.rate_assumed = true;
     e.run.scale.gsd_known = false;
     e.detections = true;
@@ -155,6 +160,7 @@ TEST(EvaluationTables, FactsOfTheRun) {
     options.made_utc.clear();
     const std::string other = htmlOf(e, options);
     EXPECT_THAT(other, HasSubstr("5 frames/s (assumed)"));
+    EXPECT_THAT(other, HasSubstr("<td><b>Light</b></td><td>no shadows found: what is dark at 6 vehicles"));
     EXPECT_THAT(other, HasSubstr("<td><b>Scale</b></td><td>not known; worked with 0.2 m/px"));
     EXPECT_THAT(other, HasSubstr(fact("Measured", "detections")));
     EXPECT_THAT(other, HasSubstr("enclosing upright boxes"));

@@ -137,6 +137,12 @@ TEST_F(ReviewReport, TellsTheChosenEventsWithAllThatIsKnownOfThem) {
     input.video_digest = "abc123";
     input.made_utc = "2026-11-22T09:00:00Z";
     ASSERT_EQ(countOfEvents(input), 1u);
+    EXPECT_THAT(htmlOf(input), Not(HasSubstr("<b>Light</b>")));
+    LightFinding light;
+    light.reach_m = 3;
+    light.vehicles = 7;
+    input.reviewed.run.light = {light};
+    EXPECT_THAT(htmlOf(input), HasSubstr("<b>Light</b></td><td>shadows fall to 0° (to the right) in frame 0, 3.0 m"));
     GreyVideo pixels;
     const ReportFile report = makeReviewReport(input, &pixels);
     EXPECT_THAT(report.html, AllOf(HasSubstr("stops"), HasSubstr("parks &lt;here&gt;"), HasSubstr("lorry"),

@@ -128,7 +128,13 @@ TEST_F(ProjectFileTest, ANewerProjectIsRefusedAndLeftAlone) {
 
 TEST_F(ProjectFileTest, AnOlderProjectIsBroughtUpToDateEvenForReading) {
     test::writeSampleProject(path_, 2);
-    makeDatabase({"DROP VIEW v_corrections",
+    makeDatabase({"DROP VIEW v_light",
+                  "DROP VIEW v_frame_shadows",
+                  "DROP VIEW v_box_trims",
+                  "DROP TABLE light_finding",
+                  "DROP TABLE frame_shadow",
+                  "DROP TABLE box_trim",
+                  "DROP VIEW v_corrections",
                   "DROP TABLE correction",
                   "DROP VIEW v_track_evidence",
                   "DROP TABLE track_evidence",
@@ -396,12 +402,27 @@ TEST_F(ProjectFileTest, StatesOfBeforeSchemaTwentyAreReadAsTheyWere) {
         "END, "
         "origin = CASE origin WHEN '' THEN 'detected' WHEN 'r' THEN 'reconstructed' WHEN 'p' THEN 'predicted' ELSE "
         "origin END";
-    makeDatabase({whole_words, "DROP VIEW v_track_states", "DROP VIEW v_tracks", "ALTER TABLE track DROP COLUMN score",
-                  "ALTER TABLE track DROP COLUMN x_sum", "ALTER TABLE track DROP COLUMN y_sum",
-                  "ALTER TABLE sequence DROP COLUMN start_utc", "DROP INDEX doubtful_state_of_track",
-                  "DROP VIEW v_detections", "DROP VIEW v_track_evidence", "ALTER TABLE detection DROP COLUMN decision",
-                  "ALTER TABLE track_evidence DROP COLUMN decision", "DROP TABLE rejected_proposal",
-                  "ALTER TABLE run DROP COLUMN started_fraction_us", "ALTER TABLE run DROP COLUMN source_digest",
+    makeDatabase({"DROP VIEW v_light",
+                  "DROP VIEW v_frame_shadows",
+                  "DROP VIEW v_box_trims",
+                  "DROP TABLE light_finding",
+                  "DROP TABLE frame_shadow",
+                  "DROP TABLE box_trim",
+                  whole_words,
+                  "DROP VIEW v_track_states",
+                  "DROP VIEW v_tracks",
+                  "ALTER TABLE track DROP COLUMN score",
+                  "ALTER TABLE track DROP COLUMN x_sum",
+                  "ALTER TABLE track DROP COLUMN y_sum",
+                  "ALTER TABLE sequence DROP COLUMN start_utc",
+                  "DROP INDEX doubtful_state_of_track",
+                  "DROP VIEW v_detections",
+                  "DROP VIEW v_track_evidence",
+                  "ALTER TABLE detection DROP COLUMN decision",
+                  "ALTER TABLE track_evidence DROP COLUMN decision",
+                  "DROP TABLE rejected_proposal",
+                  "ALTER TABLE run DROP COLUMN started_fraction_us",
+                  "ALTER TABLE run DROP COLUMN source_digest",
                   "CREATE INDEX track_state_of_track ON track_state (run_id, track_id, frame)",
                   "PRAGMA user_version = 19"});
     ProjectFile project = ProjectFile::open(path_);

@@ -55,6 +55,8 @@ TEST_F(VideoStart, WhatIsSaidNowCountsBeforeWhatIsKept) {
 
 TEST_F(VideoStart, IsNotKnownOfAProjectOfBefore) {
     change(
+        "DROP VIEW v_light; DROP VIEW v_frame_shadows; DROP VIEW v_box_trims; DROP TABLE light_finding; DROP TABLE "
+        "frame_shadow; DROP TABLE box_trim; "
         "ALTER TABLE sequence DROP COLUMN start_utc; DROP INDEX doubtful_state_of_track; DROP VIEW v_detections; "
         "DROP VIEW v_track_evidence; ALTER TABLE detection DROP COLUMN decision; "
         "ALTER TABLE track_evidence DROP COLUMN decision; DROP TABLE rejected_proposal; "

@@ -17,9 +17,10 @@ namespace eyrie::test {
 inline std::vector<std::string> rowsOf(const std::filesystem::path& path, int run_id) {
     ProjectFile project = ProjectFile::open(path, ProjectFile::Mode::read_only);
     std::vector<std::string> rows;
-    for (const std::string table : {"frame", "motion_vectors", "stationary_corners", "motion_cluster", "roi",
-                                    "detection", "track", "track_state", "dropped_state", "doubtful_state",
-                                    "track_evidence", "run_state", "unfinished_track_state", "unfinished_frame"}) {
+    for (const std::string table :
+         {"frame", "motion_vectors", "stationary_corners", "motion_cluster", "roi", "detection", "track", "track_state",
+          "dropped_state", "doubtful_state", "track_evidence", "light_finding", "frame_shadow", "box_trim", "run_state",
+          "unfinished_track_state", "unfinished_frame"}) {
         SQLite::Statement statement(project.database(), "SELECT * FROM " + table + " WHERE run_id = ?");
         statement.bind(1, run_id);
         while (statement.executeStep()) {

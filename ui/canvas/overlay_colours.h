@@ -27,6 +27,7 @@ struct OverlayColours {
     QColor non_vehicle;
     QColor zone;  ///< of the first one; each may have its own
     QColor north;
+    QColor shadow;
     /// Thin dark rim that keeps lines readable on any ground. Opaque: blending would cost four times as much.
     QColor edge;
 };
@@ -47,6 +48,7 @@ inline OverlayColours overlayColours(PaletteKind kind) {
                 .non_vehicle = QColor(0, 114, 178),
                 .zone = QColor(120, 180, 255),
                 .north = QColor(250, 250, 245),
+                .shadow = QColor(240, 215, 185),
                 .edge = edge};
     // The text has corners in red (Teutsch fig. 4.3) and detections, too (figs. 6.3, 7.15, 7.20). Here both may be
     // drawn over one picture: red are detections, which more figures show, and corners have a hue that nothing else
@@ -64,6 +66,7 @@ inline OverlayColours overlayColours(PaletteKind kind) {
             .non_vehicle = QColor(255, 160, 40),
             .zone = QColor(120, 180, 255),
             .north = QColor(250, 250, 245),
+            .shadow = QColor(240, 205, 160),
             .edge = edge};
 }
 

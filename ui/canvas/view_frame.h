@@ -9,6 +9,7 @@
 #include "canvas/marks/verdict_mark.h"
 #include "canvas/marks/zone_mark.h"
 #include "canvas/trail.h"
+#include "core/evidence/light_finding.h"
 #include "core/labels/box_record.h"
 #include "core/values/frame_result.h"
 #include "core/values/scene_scale.h"
@@ -23,8 +24,9 @@ struct ViewFrame {
     QImage image;                               ///< null when the picture could not be read
     std::shared_ptr<const FrameResult> result;  ///< null when the run has no such frame
     SceneScale scale;                           ///< of the run that the result is of
-    std::vector<TrackState> doubtful;  ///< of tracks that only their score kept out of the result; ascending id
-    std::vector<Trail> trails;         ///< ascending track id
+    std::vector<TrackState> doubtful;   ///< of tracks that only their score kept out of the result; ascending id
+    std::optional<FrameShadow> shadow;  ///< where shadows fall to, as far as the run knows
+    std::vector<Trail> trails;          ///< ascending track id
     std::vector<BoxRecord> ground_truth;
     bool evaluated = false;             ///< the frame was compared with ground truth
     std::vector<VerdictMark> verdicts;  ///< what came of it

@@ -16,6 +16,7 @@
 #include "cli/interrupt.h"
 #include "cli/reports/comparison/stored_comparison.h"
 #include "core/error.h"
+#include "core/geometry/angle.h"
 #include "core/utc_time.h"
 #include "io/video/frame_source.h"
 #include "io/video/parts/part_list.h"
@@ -53,6 +54,24 @@ Json factsOf(const FrameSource& source) {
     return facts;
 }
 
+/// Headings in degrees, clockwise from +x in the picture of the first frame.
+Json factsOf(const LightFinding& finding, const SceneScale& scale) {
+    Json facts{
+        {"first_frame", finding.first_frame}, {"last_frame", finding.last_frame}, {"outcome", nameOf(finding.outcome)}};
+    if (finding.outcome == LightOutcome::shadows) {
+        facts["heading_deg"] = degreesFromRadians(finding.heading);
+        facts["reach_px"] = scale.px(finding.reach_m);
+        facts["reach_m"] = scale.gsd_known ? Json(finding.reach_m) : Json(nullptr);
+        facts["scatter_px"] = scale.px(finding.scatter_m);
+        facts["agreement"] = finding.agreement;
+        facts["darkening"] = finding.darkening ? Json(*finding.darkening) : Json(nullptr);
+    }
+    facts["vehicles"] = finding.vehicles;
+    facts["trimmed_tracks"] = finding.trimmed;
+    facts["dropped_tracks"] = finding.dropped;
+    return facts;
+}
+
 Json factsOf(RunStore& store, const RunRecord& run) {
     const SequenceRecord& sequence = run.sequence;
     Json facts{{"id", run.id},
@@ -81,6 +100,9 @@ Json factsOf(RunStore& store, const RunRecord& run) {
     facts["scale_growth_right_per_px"] = run.scale.slope.right_per_px;
     facts["scale_growth_down_per_px"] = run.scale.slope.down_per_px;
     facts["scale"] = describe(run.scale, run.scale_basis, run.sequence.size);
+    facts["light"] = Json::array();
+    for (const LightFinding& finding : run.light) facts["light"].push_back(factsOf(finding, run.scale));
+    facts["light_in_words"] = describe(run.light, run.scale);
     int confirmed = 0;
     for (const TrackSummary& track : store.tracks(run.id)) confirmed += track.confirmed ? 1 : 0;
     facts["tracks"] = confirmed;
@@ -121,6 +143,8 @@ void printProject(const Json& facts) {
         std::printf("    %s, engine %s, preset %s, %s%s\n", run["started"].get<std::string>().c_str(),
                     run["engine_version"].get<std::string>().c_str(), run["preset"].get<std::string>().c_str(), scale,
                     run["scale"].get<std::string>().c_str());
+        if (const std::string light = run["light_in_words"].get<std::string>(); !light.empty())
+            std::printf("    light: %s\n", light.c_str());
     }
     for (const Json& labels : facts["labels"])
         std::printf("  labels of %s: %d objects\n", labels["video"].get<std::string>().c_str(),

@@ -1,5 +1,6 @@
 #include "cli/reports/run_report.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -156,6 +157,10 @@ std::string summaryText(const VideoInfo& video, const RunRecord& run, const RunS
         const std::string doubt = doubtfulScaleOf(facts);
         text += ": " + (doubt.empty() ? whyNothing(facts) : doubt);
     }
+    const bool lit = std::any_of(run.light.begin(), run.light.end(), [](const LightFinding& finding) {
+        return finding.outcome == LightOutcome::shadows || finding.outcome == LightOutcome::beams;
+    });
+    if (lit) text += "\nLight: " + describe(run.light, run.scale);
     text += "\nMedian per frame:";
     for (int i = 0; i < kStageCount; ++i) {
         const float ms = summary.median_ms[static_cast<std::size_t>(i)];

@@ -142,6 +142,7 @@ RunRecord RunRecorder::finish(const RunSummary& summary, FrameSource* source, st
     tracks.dropped = [&](const DropVisitor& visitor) { finished.visitDropped(followed, visitor); };
     tracks.doubtful = [&](const StateVisitor& visitor) { finished.visitDoubtful(visitor); };
     tracks.evidence = finished.evidence;
+    tracks.light = finished.light;
     store.replaceTracks(writer_.runId(), tracks);
     if (state == RunState::finished) writer_.finish(state, message);
     return store.run(writer_.runId()).value();

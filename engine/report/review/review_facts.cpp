@@ -158,6 +158,7 @@ void tellReviewedVideo(ReportPage& page, const ReviewScene& scene) {
          searched + ", started " + run.started_utc + ", Eyrie " + run.engine_version + ", " + nameOf(stateNow(run)));
     fact("Clock", clockFact(input));
     fact("Scale", scaleText(input));
+    if (const std::string light = describe(run.light, run.scale); !light.empty()) fact("Light", light);
     fact("Places", placeFact(input));
     fact("Searched", searchedFact(scene));
     fact("Seen", seenFact(input));

@@ -224,6 +224,18 @@ std::vector<RowRule> rowRules() {
         {"run_state", frame, "state of a run is impossible"},
         {"dropped_state", frame + " AND " + isOneOf("reason", stored::kTrackDrops),
          "a state left out of a track is impossible"},
+        {"light_finding",
+         range + " AND last_frame >= first_frame AND heading_deg >= 0 AND heading_deg < 360 AND " +
+             isOneOf("outcome", stored::kLightOutcomes) +
+             " AND reach_m BETWEEN 0 AND 1e300 AND scatter_m BETWEEN 0 AND 1e300 AND vehicles BETWEEN 0 AND 2147483647"
+             " AND agreement BETWEEN 0 AND 1 AND (darkening IS NULL OR darkening BETWEEN 0 AND 1)"
+             " AND trimmed BETWEEN 0 AND 2147483647 AND dropped BETWEEN 0 AND 2147483647",
+         "how shadows fall is impossible"},
+        {"frame_shadow", frame + " AND heading_deg >= 0 AND heading_deg < 360 AND reach_px BETWEEN 0 AND 1e300",
+         "how shadows fall in a frame is impossible"},
+        {"box_trim",
+         "what IN ('shadows', 'beams') AND along BETWEEN 0 AND 1 AND across BETWEEN 0 AND 1 AND taken BETWEEN 0 AND 1",
+         "what was taken out of the boxes of a track is impossible"},
         {"labelled_object",
          "id BETWEEN 1 AND 2147483647 AND last_frame >= 0 AND are_keyframes(keyframes) AND length(keyframes) > 1 AND " +
              isOneOf("origin", stored::kObjectOrigins) + " AND " + areShort("class, notes"),

@@ -41,7 +41,8 @@ constexpr std::array kMigrations{addRuns,
                                  addDecisions,
                                  addRejectedProposals,
                                  addStartFractions,
-                                 addSourceDigests};
+                                 addSourceDigests,
+                                 addLight};
 
 }  // namespace
 

@@ -35,5 +35,6 @@ void addDecisions(SQLite::Database& database);
 void addRejectedProposals(SQLite::Database& database);
 void addStartFractions(SQLite::Database& database);
 void addSourceDigests(SQLite::Database& database);
+void addLight(SQLite::Database& database);
 
 }  // namespace eyrie::schema

@@ -15,6 +15,7 @@
 #include "store/runs/class_rule.h"
 #include "store/runs/of_run.h"
 #include "store/runs/run_store.h"
+#include "store/runs/stored_light.h"
 
 namespace eyrie {
 namespace {
@@ -211,6 +212,7 @@ std::vector<TrackSummary> RunStore::tracks(int run_id) const {
             "x_sum, y_sum "
             "FROM track WHERE run_id = ? ORDER BY id");
         statement.bind(1, run_id);
+        const std::map<TrackId, BoxTrim> trims = readTrims(project_.database(), run_id);
         std::vector<TrackSummary> tracks;
         while (statement.executeStep()) {
             RowReader row(statement);
@@ -228,6 +230,7 @@ std::vector<TrackSummary> RunStore::tracks(int run_id) const {
             const cv::Point2d place = row.point() / track.frames;
             if (!rule.scale.slope.isFlat() && std::isfinite(place.x + place.y)) track.place = place;
             track.track_class = rule.of(track);
+            if (const auto trim = trims.find(track.id); trim != trims.end()) track.trim = trim->second;
             tracks.push_back(track);
         }
         return tracks;

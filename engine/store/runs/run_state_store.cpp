@@ -28,7 +28,8 @@ void claim(ProjectFile& project, int run_id, FrameIndex last) {
 
 /// What tables and lists sum up of the tracks.
 void sumUpTracks(SQLite::Database& database, int run_id) {
-    for (const char* table : {"dropped_state", "doubtful_state", "track_evidence", "track"})
+    for (const char* table :
+         {"dropped_state", "doubtful_state", "track_evidence", "light_finding", "frame_shadow", "box_trim", "track"})
         runFor(database, std::string("DELETE FROM ") + table + " WHERE run_id = ?", run_id);
     runFor(
         database,

@@ -16,6 +16,7 @@
 #include "store/runs/frame_rows.h"
 #include "store/runs/of_run.h"
 #include "store/runs/run_lock.h"
+#include "store/runs/stored_light.h"
 
 namespace eyrie {
 namespace {
@@ -112,6 +113,7 @@ std::vector<RunRecord> readRuns(ProjectFile& project, const std::string& where, 
     if (run_id > 0) statement.bind(1, run_id);
     std::vector<RunRecord> runs;
     while (statement.executeStep()) runs.push_back(readRun(statement, project.path()));
+    for (RunRecord& run : runs) run.light = readFindings(project.database(), run.id);
     return runs;
 }
 
@@ -325,6 +327,7 @@ void RunStore::replaceTracks(int run_id, const TracksOfRun& tracks) {
             rows.insertFinished(run_id, frame, state, common.at(state.id));
         });
         insertDoubtful(database, run_id, tracks);
+        replaceLight(database, run_id, tracks.light);
         SQLite::Statement counts(database,
                                  "UPDATE frame SET track_count = (SELECT count(*) FROM track_state WHERE "
                                  "track_state.run_id = frame.run_id AND track_state.frame = frame.frame AND "

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/evidence/classified_box.h"
+#include "core/evidence/light_finding.h"
 #include "core/evidence/track_evidence.h"
 #include "core/labels/box_record.h"
 #include "core/labels/track_class.h"
@@ -58,6 +59,8 @@ struct RunRecord {
     bool live = false;                   ///< some program writes it at this moment
     std::string writer;                  ///< who, if live: "process 4711 on oak (since 2026-11-21T08:00:00Z)"
     std::string message;                 ///< why it failed
+    /// How shadows fall in it, or what headlights light; empty where nothing is known. See StoredLight for the rest.
+    std::vector<LightFinding> light;
 };
 
 /// How a run stands: as stored, but a killed one is stopped.
@@ -94,8 +97,9 @@ struct TrackSummary {
     double mean_length_px = 0;
     double mean_width_px = 0;
     cv::Point2d place{0, 0};  ///< mean of its boxes' centres, where the run's scale differs over the picture
-    double score = 0;       ///< of its last state; in a result the same in all: the probability of a vehicle that moves
-    bool doubtful = false;  ///< only its score kept it out of the result
+    double score = 0;  ///< of its last state; in a result the same in all: the probability of a vehicle that moves
+    std::optional<BoxTrim> trim;                   ///< what was taken out of its boxes as shadow or beam
+    bool doubtful = false;                         ///< only its score kept it out of the result
     TrackClass track_class = TrackClass::unknown;  ///< by its size and speed so far and the run's limits
     /// What a person did to it last, no track of the store has it. Rejected: it is in lists alone, and never confirmed.
     std::optional<CorrectionKind> corrected;
@@ -117,6 +121,7 @@ struct TracksOfRun {
     std::function<void(const DropVisitor&)> dropped = [](const DropVisitor&) {};
     States doubtful = [](const StateVisitor&) {};  ///< tracks that only their score kept out of the result
     std::map<TrackId, TrackEvidence> evidence;     ///< of these and of those of the result
+    RunLight light;                                ///< what was taken out of the boxes of these, and why
 };
 
 class DoubtfulTracks;

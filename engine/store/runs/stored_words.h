@@ -3,6 +3,7 @@
 #include <array>
 #include <string_view>
 
+#include "core/evidence/light_finding.h"
 #include "core/labels/annotation.h"
 #include "core/values/corner.h"
 #include "core/values/detection.h"
@@ -63,6 +64,16 @@ inline constexpr std::array<Word<TrackDrop>, 8> kTrackDrops{{{TrackDrop::unconfi
                                                              {TrackDrop::hardly_detected, "hardly detected"},
                                                              {TrackDrop::could_stand, "could stand"},
                                                              {TrackDrop::unlikely, "unlikely"}}};
+inline constexpr std::array<Word<LightOutcome>, 10> kLightOutcomes{{{LightOutcome::shadows, "shadows"},
+                                                                    {LightOutcome::beams, "beams"},
+                                                                    {LightOutcome::switched_off, "switched off"},
+                                                                    {LightOutcome::no_scale, "no scale"},
+                                                                    {LightOutcome::no_classifier, "no classifier"},
+                                                                    {LightOutcome::no_pictures, "no pictures"},
+                                                                    {LightOutcome::few_vehicles, "few vehicles"},
+                                                                    {LightOutcome::short_shadows, "short shadows"},
+                                                                    {LightOutcome::disagreement, "disagreement"},
+                                                                    {LightOutcome::shaded_sides, "shaded sides"}}};
 inline constexpr std::array<Word<StateOrigin>, 8> kStateOrigins{{{StateOrigin::detected, ""},
                                                                  {StateOrigin::reconstructed, "r"},
                                                                  {StateOrigin::predicted, "p"},

@@ -8,6 +8,7 @@
 #include "tracking/finishing/frames_of.h"
 #include "tracking/finishing/track_paths.h"
 #include "tracking/ground_motion.h"
+#include "tracking/pictures/light_telling.h"
 #include "tracking/pictures/picture_finishing.h"
 
 namespace eyrie {
@@ -371,7 +372,10 @@ FinishedTracks finishRun(const StatesOfRun& states, const GroundMotion& ground, 
     extendToRest(paths, ground, framesOf(options.from_rest_s, scale), scale);
     extendBack(paths, ground, options.extend_back, framesOf(options.extend_entry_s, scale));
     if (judged) scoreTracks(paths, ground, looks, options.min_score, scale, finished);
-    if (judged) finishByPictures(finished, ground, options, scale, found.gray_at);
+    if (judged)
+        finishByPictures(finished, ground, options, scale, found.gray_at);
+    else
+        finished.light = untoldLight(paths, LightOutcome::no_classifier);
     confirm(paths);
     confirm(finished.doubtful);
     return finished;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/evidence/classified_box.h"
+#include "core/evidence/light_finding.h"
 #include "core/evidence/track_evidence.h"
 #include "core/parameter.h"
 #include "core/values/corner.h"
@@ -157,6 +158,7 @@ struct FinishedTracks {
     /// What speaks for the tracks of the result, for the doubtful ones, for those that could stand and for shadows that
     /// were left out at last; none where no classifier takes part.
     std::map<TrackId, TrackEvidence> evidence;
+    RunLight light;  ///< how shadows fall, or what headlights light, and what of it was taken out of boxes
 
     /// All states, ordered by frame, then id.
     void visit(const StateVisitor& visitor) const;

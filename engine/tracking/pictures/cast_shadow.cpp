@@ -10,7 +10,6 @@
 namespace eyrie {
 namespace {
 
-constexpr int kFewestTracks = 4;          ///< one vehicle may be dark on one side
 constexpr double kShortestShadow = 0.25;  ///< m
 constexpr double kLeastAgreement = 0.8;   ///< of what vehicles say
 constexpr double kLargestResidual = 0.4;  ///< of the reach
@@ -99,6 +98,16 @@ std::pair<std::vector<ShadowSide>, int> sidesOf(const LooksOfStretch& looks, con
     return {sides, static_cast<int>(looks_of.size())};
 }
 
+/// How much darker the ground is in the shade of sure vehicles.
+std::optional<double> darkeningOf(const LooksOfStretch& looks) {
+    std::vector<double> shades;
+    for (const SilhouetteLook* look : looks) {
+        if (showsVehicle(*look) && look->silhouette->shade) shades.push_back(*look->silhouette->shade);
+    }
+    if (shades.empty()) return std::nullopt;
+    return 1 - medianOf(std::move(shades));
+}
+
 /// Whether boxes usually hold all of it: then it is the vehicles' own shaded side, which an oblique view shows. Boxes
 /// rarely hold a whole shadow.
 bool isShadedSide(const CastShadow& shadow, const LooksOfStretch& looks, const GroundTurns& turns,
@@ -115,24 +124,50 @@ bool isShadedSide(const CastShadow& shadow, const LooksOfStretch& looks, const G
 
 }  // namespace
 
-std::vector<CastShadow> castShadows(const std::vector<SilhouetteLook>& looks, const GroundTurns& turns,
+std::vector<StretchLight> readLight(const std::vector<SilhouetteLook>& looks, const GroundTurns& turns,
                                     const SceneScale& scale) {
     std::map<FrameIndex, LooksOfStretch> by_stretch;
     for (const SilhouetteLook& look : looks) by_stretch[turns.at(look.frame).stretch].push_back(&look);
-    std::vector<CastShadow> shadows;
+    std::vector<StretchLight> read;
+    read.reserve(by_stretch.size());
     for (const auto& [stretch, of_stretch] : by_stretch) {
+        StretchLight& light = read.emplace_back();
         const auto [sides, tracks] = sidesOf(of_stretch, turns, scale);
-        if (tracks < kFewestTracks) continue;
+        light.shadow.stretch = stretch;
+        light.shadow.tracks = tracks;
+        light.outcome = LightOutcome::few_vehicles;
+        if (tracks < kFewestShadowVehicles) continue;
         const cv::Point2d fitted = fittedReach(sides);
-        const CastShadow shadow{stretch, fitted, tracks, agreementOf(sides, fitted)};
+        light.shadow.reach_m = fitted;
+        light.shadow.agreement = agreementOf(sides, fitted);
+        light.darkening = darkeningOf(of_stretch);
         const double reach = std::hypot(fitted.x, fitted.y);
         std::vector<double> off;
+        off.reserve(sides.size());
         for (const ShadowSide& side : sides) off.push_back(std::abs(side.reach - side.axis.dot(fitted)));
-        if (reach < kShortestShadow || shadow.agreement < kLeastAgreement || medianOf(off) > kLargestResidual * reach)
-            continue;
-        if (!isShadedSide(shadow, of_stretch, turns, scale)) shadows.push_back(shadow);
+        light.scatter_m = medianOf(std::move(off));
+        if (reach < kShortestShadow)
+            light.outcome = LightOutcome::short_shadows;
+        else if (light.shadow.agreement < kLeastAgreement || light.scatter_m > kLargestResidual * reach)
+            light.outcome = LightOutcome::disagreement;
+        else
+            light.outcome = isShadedSide(light.shadow, of_stretch, turns, scale) ? LightOutcome::shaded_sides
+                                                                                 : LightOutcome::shadows;
+    }
+    return read;
+}
+
+std::vector<CastShadow> shadowsOf(const std::vector<StretchLight>& read) {
+    std::vector<CastShadow> shadows;
+    for (const StretchLight& light : read) {
+        if (light.outcome == LightOutcome::shadows) shadows.push_back(light.shadow);
     }
     return shadows;
+}
+
+std::vector<CastShadow> castShadows(const std::vector<SilhouetteLook>& looks, const GroundTurns& turns,
+                                    const SceneScale& scale) {
+    return shadowsOf(readLight(looks, turns, scale));
 }
 
 const CastShadow* shadowIn(const std::vector<CastShadow>& shadows, FrameIndex stretch) {

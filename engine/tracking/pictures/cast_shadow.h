@@ -1,7 +1,10 @@
 #pragma once
 
+#include <map>
+#include <optional>
 #include <vector>
 
+#include "core/evidence/light_finding.h"
 #include "core/values/scene_scale.h"
 #include "tracking/finishing/track_paths.h"
 #include "tracking/pictures/ground_turns.h"
@@ -17,8 +20,24 @@ struct CastShadow {
     double agreement = 0;       ///< share of what they say that points the same way, 0 … 1
 };
 
-/// Finds them from vehicles whose shadow is sure, since the vehicle itself is not in its own shade. One for each
-/// stretch in which enough vehicles agree, in ascending order; nothing at night and under clouds.
+/// What vehicles say of the shadows of a stretch, used or not.
+struct StretchLight {
+    CastShadow shadow;
+    double scatter_m = 0;  ///< median of how far what they say is from it
+    /// Median share of its brightness that the ground loses in them; nothing where no vehicle shows it.
+    std::optional<double> darkening = std::nullopt;
+    LightOutcome outcome = LightOutcome::shadows;  ///< anything else: it is not used
+};
+
+/// Asks vehicles whose shadow is sure, since the vehicle itself is not in its own shade. One for each stretch in which
+/// a track was looked at, in ascending order.
+std::vector<StretchLight> readLight(const std::vector<SilhouetteLook>& looks, const GroundTurns& turns,
+                                    const SceneScale& scale);
+
+/// Those that are used, of stretches in which enough vehicles agree; nothing at night and under clouds.
+std::vector<CastShadow> shadowsOf(const std::vector<StretchLight>& read);
+
+/// The same at once.
 std::vector<CastShadow> castShadows(const std::vector<SilhouetteLook>& looks, const GroundTurns& turns,
                                     const SceneScale& scale);
 
@@ -36,8 +55,9 @@ void dropShadowTracks(std::vector<TrackPath>& paths, const std::vector<Silhouett
                       DropList& dropped);
 
 /// Takes the shadow out of the boxes of tracks: as much of it as silhouettes show to be in each of them, which is
-/// little where a box ends with the vehicle.
-void takeOutShadows(std::vector<TrackPath>& paths, const std::vector<SilhouetteLook>& looks,
-                    const std::vector<CastShadow>& shadows, const GroundTurns& turns, const SceneScale& scale);
+/// little where a box ends with the vehicle. What was taken out of which.
+std::map<TrackId, BoxTrim> takeOutShadows(std::vector<TrackPath>& paths, const std::vector<SilhouetteLook>& looks,
+                                          const std::vector<CastShadow>& shadows, const GroundTurns& turns,
+                                          const SceneScale& scale);
 
 }  // namespace eyrie

@@ -25,6 +25,8 @@ class GroundTurns {
     };
     /// `frame` must be one of them.
     const Turn& at(FrameIndex frame) const { return turns_[static_cast<std::size_t>(frame - first_)]; }
+    FrameIndex firstFrame() const { return first_; }
+    FrameIndex lastFrame() const { return first_ + static_cast<FrameIndex>(turns_.size()) - 1; }
 
  private:
     FrameIndex first_;

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <map>
 #include <vector>
 
+#include "core/evidence/light_finding.h"
 #include "tracking/finishing/track_paths.h"
 #include "tracking/silhouettes/silhouette_search.h"
 
@@ -10,8 +12,14 @@ namespace eyrie {
 /// Whether so many tracks throw light ahead of them that it is dark.
 bool driveWithHeadlights(const std::vector<SilhouetteLook>& looks);
 
+/// What headlights were found to light.
+struct BeamFinding {
+    int vehicles = 0;                  ///< that have a beam, surely; 0 where none was taken out
+    std::map<TrackId, BoxTrim> trims;  ///< what was taken out of which boxes
+};
+
 /// Takes what headlights throw on the ground ahead of vehicles out of the front of their boxes, as much of it as looks
-/// show to be in each track's.
-void takeOutBeams(std::vector<TrackPath>& paths, const std::vector<SilhouetteLook>& looks);
+/// show to be in each track's. Nothing where few tracks have lights, as by day.
+BeamFinding takeOutBeams(std::vector<TrackPath>& paths, const std::vector<SilhouetteLook>& looks);
 
 }  // namespace eyrie

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "tracking/finishing/frames_of.h"
 #include "tracking/finishing/track_paths.h"
 #include "tracking/pictures/cast_shadow.h"
 #include "tracking/pictures/headlight_beams.h"
+#include "tracking/pictures/light_telling.h"
 #include "tracking/pictures/long_vehicles.h"
 
 namespace eyrie {
@@ -95,8 +97,12 @@ GroundTurns turnsOf(const std::vector<TrackPath>& paths, const GroundMotion& gro
 void finishByPictures(FinishedTracks& finished, const GroundMotion& ground, const FinishingOptions& options,
                       const SceneScale& scale, const GrayOfFrame& gray_at) {
     std::vector<TrackPath>& paths = finished.paths;
-    if (!gray_at || paths.empty()) return;
+    if (!gray_at || paths.empty()) {
+        finished.light = untoldLight(paths, LightOutcome::no_pictures);
+        return;
+    }
     if (!(options.trim_shadows || options.whole_lorries) || !hasMetricLimits(scale)) {
+        finished.light = untoldLight(paths, options.trim_shadows ? LightOutcome::no_scale : LightOutcome::switched_off);
         followOn(finished, ground, options, scale, gray_at);
         return;
     }
@@ -111,15 +117,24 @@ void finishByPictures(FinishedTracks& finished, const GroundMotion& ground, cons
     std::vector<SilhouetteLook> looks = search.finish(gray_at);
     for (SilhouetteLook& look : looks) look.track = ownerOf(taken_up, look.track);
     const GroundTurns turns = turnsOf(paths, ground, scale);
-    const std::vector<CastShadow> shadows = castShadows(looks, turns, scale);
+    const std::vector<StretchLight> light = readLight(looks, turns, scale);
+    const std::vector<CastShadow> shadows = shadowsOf(light);
     // Where the sun casts shadows headlights light nothing, and what seems to be lit ahead is a bright vehicle.
     const bool dark = shadows.empty() && driveWithHeadlights(looks);
+    const std::size_t dropped_before = finished.dropped.size();
     if (options.drop_shadows && options.trim_shadows)
         dropShadowTracks(paths, looks, shadows, turns, scale, finished.dropped);
+    std::vector<TrackPath> mere_shadows;
+    for (std::size_t i = dropped_before; i < finished.dropped.size(); ++i)
+        mere_shadows.push_back(finished.dropped[i].path);
     if (options.whole_lorries && !dark) makeWhole(finished, looks, shadows, turns, ground, options, scale);
-    if (!options.trim_shadows) return;
-    takeOutShadows(paths, looks, shadows, turns, scale);
-    if (dark) takeOutBeams(paths, looks);
+    if (!options.trim_shadows) {
+        finished.light = untoldLight(paths, LightOutcome::switched_off);
+        return;
+    }
+    std::map<TrackId, BoxTrim> trims = takeOutShadows(paths, looks, shadows, turns, scale);
+    finished.light = toldShadows(light, turns, scale, paths, std::move(trims), mere_shadows);
+    if (dark) finished.light = toldBeams(takeOutBeams(paths, looks), turns);
 }
 
 }  // namespace eyrie

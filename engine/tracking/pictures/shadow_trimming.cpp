@@ -32,8 +32,9 @@ OrientedBox withoutEnds(const OrientedBox& box, cv::Point2d less) {
 
 }  // namespace
 
-void takeOutShadows(std::vector<TrackPath>& paths, const std::vector<SilhouetteLook>& looks,
-                    const std::vector<CastShadow>& shadows, const GroundTurns& turns, const SceneScale& scale) {
+std::map<TrackId, BoxTrim> takeOutShadows(std::vector<TrackPath>& paths, const std::vector<SilhouetteLook>& looks,
+                                          const std::vector<CastShadow>& shadows, const GroundTurns& turns,
+                                          const SceneScale& scale) {
     std::map<TrackId, TrackShares> shares;
     for (const SilhouetteLook& look : looks) {
         const GroundTurns::Turn& turn = turns.at(look.frame);
@@ -43,10 +44,13 @@ void takeOutShadows(std::vector<TrackPath>& paths, const std::vector<SilhouetteL
         if (share.along) shares[look.track].along.push_back(*share.along);
         if (share.across) shares[look.track].across.push_back(*share.across);
     }
+    std::map<TrackId, BoxTrim> trims;
     for (TrackPath& path : paths) {
         const double along = usualShare(shares[path.id].along);
         const double across = usualShare(shares[path.id].across);
         if (along == 0 && across == 0) continue;
+        double whole = 0;
+        double left = 0;
         for (auto& [frame, state] : path.states) {
             const GroundTurns::Turn& turn = turns.at(frame);
             const CastShadow* shadow = shadowIn(shadows, turn.stretch);
@@ -54,8 +58,12 @@ void takeOutShadows(std::vector<TrackPath>& paths, const std::vector<SilhouetteL
             const OrientedBox box = state.box;
             const cv::Point2d reach = box.toBox(box.centre + reachAt(*shadow, turn, box.centre, scale));
             state.box = withoutEnds(box, {along * reach.x, across * reach.y});
+            whole += box.area();
+            left += state.box.area();
         }
+        if (left < whole) trims[path.id] = {LightOutcome::shadows, along, across, 1 - left / whole};
     }
+    return trims;
 }
 
 }  // namespace eyrie

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "core/robust_statistics.h"
 #include "tracking/silhouettes/ground_contrast.h"
 
 namespace eyrie {
@@ -84,7 +85,23 @@ std::optional<Silhouette> SilhouetteGrid::compare(const cv::Mat& vehicle, const 
     const double filled = static_cast<double>(cv::countNonZero(lit(area))) / area.area();
     const bool long_enough = edges.length() > kLitLength * edges.width();
     silhouette.lit_vehicle = edges.area() > kLitArea * whole->area() && filled > kLitFilled && long_enough;
+    if (silhouette.lit_vehicle) silhouette.shade = shadeOf(differs & shaded, area, vehicle, grounds);
     return silhouette;
+}
+
+std::optional<double> SilhouetteGrid::shadeOf(const cv::Mat& shade, const cv::Rect& beyond, const cv::Mat& vehicle,
+                                              const std::vector<cv::Mat>& grounds) {
+    std::vector<double> shares;
+    for (int y = 0; y < shade.rows; ++y) {
+        for (int x = 0; x < shade.cols; ++x) {
+            if (shade.at<uchar>(y, x) == 0 || beyond.contains({x, y})) continue;
+            double bare = 0;
+            for (const cv::Mat& ground : grounds) bare += ground.at<uchar>(y, x);
+            shares.push_back(vehicle.at<uchar>(y, x) / (bare / static_cast<double>(grounds.size())));
+        }
+    }
+    if (shares.empty()) return std::nullopt;
+    return medianOf(std::move(shares));
 }
 
 }  // namespace eyrie

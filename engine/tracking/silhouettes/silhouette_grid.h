@@ -15,6 +15,8 @@ struct Silhouette {
     BoxEdges whole;               ///< of all that differs from the ground
     std::optional<BoxEdges> lit;  ///< of what does and is no shadow, where there is anything
     bool lit_vehicle = false;     ///< that is the vehicle, surely: one compact area, not merely its windows or lamps
+    /// Median share of its brightness that the ground keeps in the shade beyond such a vehicle; none where it has none.
+    std::optional<double> shade = std::nullopt;
 };
 
 /// The grid of places about a box at which pictures are compared, in its axes.
@@ -41,6 +43,9 @@ class SilhouetteGrid {
 
  private:
     std::optional<BoxEdges> edgesOf(const cv::Mat& mask) const;
+    /// `beyond`: what is lit, in places.
+    static std::optional<double> shadeOf(const cv::Mat& shade, const cv::Rect& beyond, const cv::Mat& vehicle,
+                                         const std::vector<cv::Mat>& grounds);
 
     BoxGrid grid_;
 };

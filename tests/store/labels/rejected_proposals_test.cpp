@@ -53,6 +53,8 @@ TEST_F(RejectedProposals, ThereAreNoneInAProjectOfBefore) {
     {
         SQLite::Database database(path_.string(), SQLite::OPEN_READWRITE);
         database.exec(
+            "DROP VIEW v_light; DROP VIEW v_frame_shadows; DROP VIEW v_box_trims; DROP TABLE light_finding; DROP TABLE "
+            "frame_shadow; DROP TABLE box_trim; "
             "DROP TABLE rejected_proposal; ALTER TABLE run DROP COLUMN started_fraction_us; ALTER TABLE run DROP "
             "COLUMN source_digest; PRAGMA user_version = 24");
     }

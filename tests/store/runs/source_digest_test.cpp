@@ -21,7 +21,10 @@ TEST(SourceDigest, IsKeptOfEachRunAndUnknownOfThoseOfBefore) {
         EXPECT_EQ(sourceDigestOf(project, run + 1), "");
     }
     SQLite::Database(folder / "p.eyrie", SQLite::OPEN_READWRITE)
-        .exec("ALTER TABLE run DROP COLUMN source_digest; PRAGMA user_version = 26");
+        .exec(
+            "DROP VIEW v_light; DROP VIEW v_frame_shadows; DROP VIEW v_box_trims; DROP TABLE light_finding; DROP TABLE "
+            "frame_shadow; DROP TABLE box_trim; "
+            "ALTER TABLE run DROP COLUMN source_digest; PRAGMA user_version = 26");
     ProjectFile project = ProjectFile::open(folder / "p.eyrie");
     EXPECT_EQ(schema::numberOf(project.database()), schema::currentNumber());
     EXPECT_EQ(sourceDigestOf(project, run), "");

@@ -105,6 +105,29 @@ TEST(CastShadow, IsNoneWhereBoxesHoldAllOfIt) {
     EXPECT_TRUE(castShadows(crossing(6, kReach, 0, 1), turning(0), kScale).empty());
 }
 
+TEST(CastShadow, WhereThereIsNoneItIsSaidWhy) {
+    const auto outcomeOf = [](const std::vector<SilhouetteLook>& looks) {
+        return readLight(looks, turning(0), kScale).at(0).outcome;
+    };
+    EXPECT_EQ(outcomeOf(crossing(3, kReach, 0)), LightOutcome::few_vehicles);
+    EXPECT_EQ(outcomeOf(crossing(6, {0.1, 0.1}, 0)), LightOutcome::short_shadows);
+    EXPECT_EQ(outcomeOf(crossing(6, kReach, 0, 1)), LightOutcome::shaded_sides);
+    EXPECT_EQ(outcomeOf(crossing(6, kReach, 0)), LightOutcome::shadows);
+    std::vector<SilhouetteLook> looks = crossing(6, kReach, 0);
+    for (int i = 0; i < 4; ++i) looks.push_back(lookAt(i + 20, 0, 1.3 * i, {-kReach.x, -kReach.y}));
+    EXPECT_EQ(outcomeOf(looks), LightOutcome::disagreement);
+}
+
+TEST(CastShadow, HowDarkItIsIsWhatMostSureVehiclesSay) {
+    std::vector<SilhouetteLook> looks = crossing(6, kReach, 0);
+    EXPECT_EQ(readLight(looks, turning(0), kScale).at(0).darkening, std::nullopt);
+    for (std::size_t i = 0; i < looks.size(); ++i) looks[i].silhouette->shade = i < 3 ? 0.3 : 0.6;
+    looks.push_back(lookAt(20, 0, 0, kReach));
+    looks.back().silhouette->lit_vehicle = false;
+    looks.back().silhouette->shade = 0;
+    EXPECT_NEAR(readLight(looks, turning(0), kScale).at(0).darkening.value(), 0.4, 1e-9);
+}
+
 TEST(CastShadow, IsSoughtAnewAfterAGap) {
     std::vector<SilhouetteLook> looks = crossing(5, kReach, 0);
     for (int i = 0; i < 5; ++i) looks.push_back(lookAt(i + 10, 35, 1.3 * i, {-kReach.x, kReach.y}));
@@ -134,7 +157,13 @@ TEST(CastShadow, IsTakenOutOfBoxesAsFarAsTheyHoldIt) {
     const OrientedBox clean = paths[1].states[0].second.box;
     const OrientedBox once = paths[2].states[0].second.box;
     const GroundTurns turns = turning(0);
-    takeOutShadows(paths, looks, castShadows(looks, turns, kScale), turns, kScale);
+    const double whole = OrientedBox(paths[0].states[0].second.box).area();
+    const auto trims = takeOutShadows(paths, looks, castShadows(looks, turns, kScale), turns, kScale);
+    ASSERT_TRUE(trims.contains(20));
+    EXPECT_NEAR(trims.at(20).along, 0.8, 0.05);
+    EXPECT_NEAR(trims.at(20).across, 0.8, 0.05);
+    EXPECT_NEAR(trims.at(20).taken, 1 - OrientedBox(paths[0].states[0].second.box).area() / whole, 1e-6);
+    EXPECT_FALSE(trims.contains(22));
     for (const auto& [frame, state] : paths[0].states) {
         const OrientedBox box = state.box;
         EXPECT_NEAR(box.length, 22, 0.4);

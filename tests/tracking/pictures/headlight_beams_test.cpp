@@ -98,4 +98,28 @@ TEST(HeadlightBeams, TellThatItIsDarkWhereSomeTracksHaveThem) {
     EXPECT_FALSE(driveWithHeadlights(looksAt({0.36, 0.2, 0.2}, 1))) << "one look is chance";
 }
 
+TEST(HeadlightBeams, AreToldWithWhatWasTakenOutOfWhichBoxes) {
+    std::vector<TrackPath> paths;
+    for (const TrackId id : {1, 2, 9}) {
+        TrackState state;
+        state.id = id;
+        state.box = {{100, 60}, 20, 8, 0};
+        paths.push_back({id, {{0, PathState(state)}}});
+    }
+    const BeamFinding found = takeOutBeams(paths, looksAt({0.36, 0.02, 0.2, 0.2}));
+    EXPECT_EQ(found.vehicles, 3);
+    ASSERT_EQ(found.trims.size(), 1U) << "the second is hardly lit, the last was not looked at";
+    EXPECT_EQ(found.trims.at(1).what, LightOutcome::beams);
+    EXPECT_NEAR(found.trims.at(1).taken, 0.3, 1e-9);
+    EXPECT_EQ(takeOutBeams(paths, looksAt({0.36, 0.2})).vehicles, 0);
+}
+
+TEST(HeadlightBeams, NeedSomeTracksThatHaveThem) {
+    EXPECT_NEAR(after(looksAt({0.36, 0.2})).length, 20, 1e-4) << "two are not enough";
+    EXPECT_NEAR(after(looksAt({0.36, 0.2, 0.09})).length, 20, 1e-4) << "nor is what is hardly one";
+    EXPECT_NEAR(after(looksAt({0.36, 0.2, 0.2, 0, 0, 0, 0, 0, 0, 0, 0, 0})).length, 14, 1e-4) << "a quarter has them";
+    EXPECT_NEAR(after(looksAt({0.36, 0.2, 0.2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0})).length, 20, 1e-4) << "as by day";
+    EXPECT_NEAR(after(looksAt({0.36, 0.2, 0.2}, 1)).length, 20, 1e-4) << "one look is chance";
+}
+
 }  // namespace eyrie::headlight_beams_test

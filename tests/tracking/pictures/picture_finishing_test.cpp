@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tracking/pictures/filmed_drive.h"
 
 namespace eyrie::picture_finishing_test {
@@ -219,6 +221,46 @@ TEST(PictureFinishing, TrimsNothingWhereNobodyKnowsAMetreOrNobodyAskedForIt) {
         for (const TrackPath& path : lanes->finished.paths)
             EXPECT_NEAR(path.states[path.states.size() / 2].second.box.length, 24, 1e-4) << path.id;
     }
+}
+
+TEST(PictureFinishing, TellsHowShadowsFallAndWhatWasTakenOutOfWhichBoxes) {
+    SunnyLanes lanes;
+    lanes.finish({});
+    const RunLight& light = lanes.finished.light;
+    ASSERT_EQ(light.findings.size(), 1U);
+    const LightFinding& finding = light.findings[0];
+    EXPECT_EQ(finding.outcome, LightOutcome::shadows);
+    EXPECT_NEAR(finding.heading, CV_PI / 4, 0.1) << "4 px to the right and 4 down";
+    const double metre = test::FilmedDrive::kScale.px(1);
+    EXPECT_NEAR(finding.reach_m * metre, std::hypot(4, 4), 0.6);
+    EXPECT_EQ(finding.vehicles, 5);
+    EXPECT_GT(finding.agreement, 0.99);
+    ASSERT_TRUE(finding.darkening);
+    EXPECT_NEAR(*finding.darkening, 0.5, 0.02) << "75 on ground of 150";
+    EXPECT_EQ(finding.trimmed, 5);
+    EXPECT_EQ(light.frames.size(), static_cast<std::size_t>(finding.last_frame - finding.first_frame) + 1);
+    ASSERT_EQ(light.trims.size(), 5U);
+    for (const auto& [track, trim] : light.trims) {
+        EXPECT_EQ(trim.what, LightOutcome::shadows);
+        EXPECT_NEAR(trim.along, 0.5, 0.2) << track;
+        EXPECT_NEAR(trim.taken, 1 - 22 * 10 / (24.0 * 12), 0.05) << track;
+    }
+}
+
+TEST(PictureFinishing, TellsWhyShadowsWereNotLookedFor) {
+    const auto outcomeOf = [](const SunnyLanes& lanes) { return lanes.finished.light.findings.at(0).outcome; };
+    SunnyLanes unknown;
+    unknown.finish({}, {.gsd_m_per_px = SceneScale().gsd_m_per_px, .frame_rate_hz = 25});
+    EXPECT_EQ(outcomeOf(unknown), LightOutcome::no_scale);
+    FinishingOptions options;
+    options.trim_shadows = false;
+    SunnyLanes unasked;
+    unasked.finish(options);
+    EXPECT_EQ(outcomeOf(unasked), LightOutcome::switched_off);
+    LostTwice unseen;
+    finishByPictures(unseen.finished, unseen.drive.ground(), unseen.options, test::FilmedDrive::kScale, nullptr);
+    EXPECT_EQ(unseen.finished.light.findings.at(0).outcome, LightOutcome::no_pictures);
+    EXPECT_EQ(unseen.finished.light.findings.at(0).last_frame, 59);
 }
 
 TEST(PictureFinishing, NothingHappensWithoutPicturesOrTracks) {

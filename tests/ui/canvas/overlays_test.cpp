@@ -104,6 +104,41 @@ class OverlaysTest : public QObject {
         QVERIFY(count(view_->picture(), stackColour(1)) > 40);
     }
 
+    void shadowsOfTracksFallWhereTheRunSaysAndOnlyFromTheSelectedOneIfThereIsOne() {
+        const auto result = empty();
+        TrackState left = track(1, TrackStatus::confirmed);
+        left.box = {{100, 150}, 60, 30, 0};
+        TrackState right = track(2, TrackStatus::confirmed);
+        right.box = {{300, 150}, 60, 30, 0};
+        result->tracks = {left, right};
+        ViewFrame frame = frameWith(result);
+        showOnly(OverlayKind{"shadows"});
+        const QColor colour = settings_.style().colours.shadow;
+        view_->setFrame(frame);
+        QCOMPARE(count(view_->picture(), colour), 0);  // nothing is known
+        frame.shadow = FrameShadow{0, M_PI / 2, 40};
+        view_->setFrame(frame);
+        const QImage both = view_->picture();
+        QVERIFY(count(both, colour) > 200);
+        // Boxes end 15 px below their middle, and shadows 40 px further down: none lies above.
+        const auto half = [&](const QImage& picture, const QRectF& part) {
+            const QPointF scale(picture.width() / 400.0, picture.height() / 300.0);
+            return count(picture.copy(QRectF(part.x() * scale.x(), part.y() * scale.y(), part.width() * scale.x(),
+                                             part.height() * scale.y())
+                                          .toRect()),
+                         colour);
+        };
+        QCOMPARE(half(both, {0, 0, 400, 132}), 0);
+        QVERIFY(half(both, {0, 170, 200, 40}) > 50);
+        QVERIFY(half(both, {200, 170, 200, 40}) > 50);
+        QCOMPARE(half(both, {0, 209, 400, 90}), 0);
+        view_->setSelectedTrack(1);
+        const QImage one = view_->picture();
+        QVERIFY(half(one, {0, 170, 200, 40}) > 50);
+        QCOMPARE(half(one, {200, 170, 200, 40}), 0);
+        view_->setSelectedTrack(std::nullopt);
+    }
+
     void zonesAppearInTheirOwnColoursWithTheirNames() {
         ViewFrame frame = frameWith(empty());
         frame.index = 7;

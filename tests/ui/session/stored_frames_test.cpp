@@ -63,6 +63,25 @@ class StoredFramesTest : public QObject {
         run_ = writer.runId();
     }
 
+    void framesKnowWhereShadowsFallIfTheRunDoes() {
+        const std::filesystem::path lit = folder_ / "lit.eyrie";
+        std::filesystem::copy_file(project(), lit);
+        {
+            ProjectFile file = ProjectFile::open(lit);
+            TracksOfRun tracks;
+            tracks.light.frames = {{7, 1.5, 12}};
+            RunStore(file).replaceTracks(run_, tracks);
+        }
+        StoredFrames frames(lit, run_, kTrail);
+        for (const FrameIndex frame : {6, 7}) {
+            ViewFrame view;
+            view.index = frame;
+            frames.addTo(view);
+            QCOMPARE(view.shadow.has_value(), frame == 7);
+            if (view.shadow) QVERIFY(std::abs(view.shadow->heading - 1.5) < 1e-9);
+        }
+    }
+
     void trailsFollowTheCameraWhereverOneJumps() {
         // As it is, and with so little kept that nearly every jump drops what was read, also within a trail.
         for (const HomographyBlocks& blocks : {HomographyBlocks{}, HomographyBlocks{16, 3}, HomographyBlocks{4, 1}}) {

@@ -170,6 +170,22 @@ class ModelsTest : public QObject {
         QVERIFY(tip(2).contains(QStringLiteral("0.0335 m/px, from the video's metadata")));
     }
 
+    void runsTellHowShadowsFall() {
+        RunsModel model;
+        RunRecord lit = sampleRun(2);
+        LightFinding finding;
+        finding.last_frame = 99;
+        finding.reach_m = 2;
+        finding.vehicles = 6;
+        finding.agreement = 0.9;
+        lit.light = {finding};
+        model.setRuns({sampleRun(1), lit});
+        const auto tip = [&](int row) { return model.index(row, 0).data(Qt::ToolTipRole).toString(); };
+        QVERIFY2(!tip(0).contains(QStringLiteral("Light")), "nothing is known");
+        QVERIFY2(tip(1).contains(QStringLiteral("Light: shadows fall to 0° (to the right) in frame 0, 2.0 m")),
+                 qPrintable(tip(1)));
+    }
+
     void aRunIsRenamedInItsRow() {
         RunsModel model;
         model.setRuns({sampleRun(7)});

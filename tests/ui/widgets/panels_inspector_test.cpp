@@ -83,6 +83,16 @@ class InspectorTest : public QObject {
         QVERIFY(inspector.text().contains(QStringLiteral("18.0 × 8.0 px")));
     }
 
+    void tellsWhatWasTakenOutOfTheBoxesAsShadow() {
+        TrackInspector inspector;
+        inspector.showTrack(4, life(), {0.25, 25, true}, TrackClass::unknown);
+        inspector.showShadow(QStringLiteral("23 % of its boxes"));
+        QVERIFY2(inspector.text().contains(QStringLiteral("Shadow\t23 % of its boxes\n")),
+                 qPrintable(inspector.text()));
+        inspector.showShadow({});
+        QVERIFY2(inspector.text().contains(QStringLiteral("Shadow\t–\n")), qPrintable(inspector.text()));
+    }
+
     void nothingIsExplained() {
         TrackInspector inspector;
         inspector.showTrack(4, life(), {}, TrackClass::unknown);

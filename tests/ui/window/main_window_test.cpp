@@ -145,7 +145,8 @@ class MainWindowTest : public QObject {
             {Qt::Key_C, CornerLayer::kKind},    {Qt::Key_V, VectorLayer::kKind},     {Qt::Key_M, ClusterLayer::kKind},
             {Qt::Key_R, RoiLayer::kKind},       {Qt::Key_D, DetectionLayer::kKind},  {Qt::Key_T, TrackLayer::kKind},
             {Qt::Key_U, TruthLayer::kKind},     {Qt::Key_S, ImageStackLayer::kKind}, {Qt::Key_6, SpeedLayer::kKind},
-            {Qt::Key_7, OverlayKind{"scores"}}, {Qt::Key_Z, ZoneLayer::kKind},       {Qt::Key_8, NorthLayer::kKind}};
+            {Qt::Key_7, OverlayKind{"scores"}}, {Qt::Key_Z, ZoneLayer::kKind},       {Qt::Key_8, NorthLayer::kKind},
+            {Qt::Key_9, OverlayKind{"shadows"}}};
         for (const auto& [key, kind] : keys) {
             const bool before = window.overlays().isVisible(kind);
             QTest::keyClick(&window, key, Qt::AltModifier);

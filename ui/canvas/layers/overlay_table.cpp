@@ -19,6 +19,7 @@ namespace eyrie::ui {
 
 // Layers that nothing else names are one file each.
 std::unique_ptr<OverlayLayer> scoreLayer();
+std::unique_ptr<OverlayLayer> shadowLayer();
 
 namespace {
 
@@ -64,6 +65,8 @@ const std::vector<OverlayRow>& overlayTable() {
                         paletteColour<&Colours::ground_truth>),
         row<DetectionLayer>(QT_TRANSLATE_NOOP("Overlay", "&Detections"), Qt::Key_D, false, false, true,
                             paletteColour<&Colours::detection>),
+        row({"shadows"}, shadowLayer, QT_TRANSLATE_NOOP("Overlay", "S&hadows of tracks"), Qt::Key_9, false, false,
+            false, paletteColour<&Colours::shadow>),
         row<TrackLayer>(QT_TRANSLATE_NOOP("Overlay", "&Tracks"), Qt::Key_T, true, false, true,
                         paletteColour<&Colours::track>),
         row<SpeedLayer>(QT_TRANSLATE_NOOP("Overlay", "S&peeds of tracks"), Qt::Key_6, false, false, false,

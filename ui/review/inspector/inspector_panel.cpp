@@ -53,6 +53,25 @@ QString scoreOfTrack(const ProjectSession& session, TrackId track) {
                              : score;
 }
 
+QString shadowOfTrack(const ProjectSession& session, TrackId track) {
+    const TrackSummary* summary = session.trackSummary(track);
+    return summary != nullptr && summary->trim ? capitalised(QString::fromStdString(describe(*summary->trim)))
+                                               : QString();
+}
+
+/// Where shadows fall to in the frame shown; where that is not known, why.
+QString lightOf(const ProjectSession& session, const ViewFrame& frame) {
+    if (frame.shadow) return QObject::tr("fall %1").arg(QString::fromStdString(describe(*frame.shadow, frame.scale)));
+    const RunRecord* run = session.shownRun();
+    if (run != nullptr) {
+        for (const LightFinding& finding : run->light) {
+            if (finding.first_frame <= frame.index && frame.index <= finding.last_frame)
+                return capitalised(QString::fromStdString(describe(std::vector{finding}, run->scale)));
+        }
+    }
+    return QObject::tr("not known");
+}
+
 /// Stands for what a run found but did not keep.
 QString notKept() {
     return QObject::tr("not kept (recording.details)");
@@ -140,6 +159,7 @@ InspectorPanel::InspectorPanel(ProjectSession& session, QWidget* parent) : QWidg
                 track_->showTrack(track, states, session_.scale(), classOfTrack(session_, track),
                                   run != nullptr && run->rate_assumed);
                 track_->showScore(scoreOfTrack(session_, track));
+                track_->showShadow(shadowOfTrack(session_, track));
                 track_->setCurrentFrame(session_.currentFrame());
             });
     connect(track_, &TrackInspector::frameActivated, &session_, &ProjectSession::goToFrame);
@@ -196,7 +216,8 @@ void InspectorPanel::showFacts() {
              {tr("Clusters"), details ? QLocale().toString(static_cast<int>(result.clusters.size())) : notKept()},
              {tr("Detections"), details ? tr("%1 of %2 kept").arg(counts.detections).arg(result.detections.size())
                                         : QLocale().toString(counts.detections)},
-             {tr("Tracks"), QLocale().toString(counts.tracks)}});
+             {tr("Tracks"), QLocale().toString(counts.tracks)},
+             {tr("Shadows"), lightOf(session_, frame)}});
 }
 
 void InspectorPanel::setRows(const QList<std::pair<QString, QString>>& rows) {

@@ -69,6 +69,7 @@ TrackInspector::TrackInspector(QWidget* parent)
     speed_ = addLine(tr("Mean speed"));
     size_ = addLine(tr("Mean size"));
     origin_counts_ = addLine(tr("Boxes"));
+    shadow_ = addLine(tr("Shadow"));
     now_ = addLine(tr("In this frame"));
     position_ = addLine(tr("Position"));
     heading_ = addLine(tr("Heading"));

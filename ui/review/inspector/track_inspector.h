@@ -33,6 +33,8 @@ class TrackInspector : public QWidget {
     /// frame; empty: not known.
     void showScore(const QString& score) { showOrDash(score_, score); }
     void showDetection(const QString& probability) { showOrDash(detection_, probability); }
+    /// What was taken out of its boxes as shadow, in words; empty: nothing.
+    void showShadow(const QString& taken) { showOrDash(shadow_, taken); }
     /// Who knows where a box of a frame points to over the ground: degrees clockwise from north; nothing where nobody
     /// does, and then the heading in the image is shown.
     using CourseOf = std::function<std::optional<double>(FrameIndex frame, const OrientedBox& box)>;
@@ -75,6 +77,7 @@ class TrackInspector : public QWidget {
     QLabel* speed_;
     QLabel* size_;
     QLabel* origin_counts_;
+    QLabel* shadow_;
     QLabel* now_;
     QLabel* position_;
     QLabel* heading_;

@@ -53,6 +53,10 @@ QString scaleText(const RunRecord& run) {
     return QString::fromStdString(describe(run.scale, run.scale_basis, run.sequence.size));
 }
 
+QString lightText(const RunRecord& run) {
+    return QString::fromStdString(describe(run.light, run.scale));
+}
+
 QString whyNoTracks(const RunFacts& facts) {
     if (const QString doubt = QString::fromStdString(doubtfulScaleOf(facts)); !doubt.isEmpty())
         return capitalised(doubt) + QLatin1Char('.');

@@ -145,6 +145,7 @@ QString RunsModel::toolTipOf(const RunRecord& run) const {
                       (run.rate_assumed ? tr("%1 frames/s (assumed), Eyrie %2") : tr("%1 frames/s, Eyrie %2"))
                           .arg(numberText(run.scale.frame_rate_hz, 2), QString::fromStdString(run.engine_version))};
     lines << tr("Scale: %1").arg(scaleText(run));
+    if (const QString light = lightText(run); !light.isEmpty()) lines << tr("Light: %1").arg(light);
     if (run.live && run.id != live_run_) lines << tr("Written by %1").arg(QString::fromStdString(run.writer));
     if (!run.message.empty()) lines << QString::fromStdString(run.message);
     return lines.join(QLatin1Char('\n'));

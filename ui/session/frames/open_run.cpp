@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "store/details/kept_details.h"
 #include "store/runs/doubtful_tracks.h"
+#include "store/runs/stored_light.h"
 
 namespace eyrie::ui {
 
@@ -41,6 +42,8 @@ ReplaySource OpenRun::source(std::function<void(FrameIndex)> about_to_read) {
     };
     source.result_of = result;
     source.evidence_of = [this](TrackId track) { return store_.doubtful().evidence(run_id_, track); };
+    source.shadow_of = [this](FrameIndex frame) { return StoredLight(project_).shadowIn(run_id_, frame); };
+    source.trim_of = [this](TrackId track) { return StoredLight(project_).trimOf(run_id_, track); };
     return source;
 }
 

@@ -5,6 +5,7 @@
 #include "correction/corrected_run.h"
 #include "session/frames/trail_history.h"
 #include "store/runs/doubtful_tracks.h"
+#include "store/runs/stored_light.h"
 
 namespace eyrie::ui {
 
@@ -42,6 +43,7 @@ void StoredFrames::addTo(ViewFrame& frame) {
     if (frame.image.isNull()) frame.time_us = frame.result->motion.time_us;
     frame.scale = scale_;
     frame.doubtful = store_.doubtful().statesIn(run_id_, frame.index);
+    frame.shadow = StoredLight(project_).shadowIn(run_id_, frame.index);
     frame.trails = trails(frame.index);
 }
 
