@@ -107,9 +107,9 @@ class OverlaysTest : public QObject {
     void shadowsOfTracksFallWhereTheRunSaysAndOnlyFromTheSelectedOneIfThereIsOne() {
         const auto result = empty();
         TrackState left = track(1, TrackStatus::confirmed);
-        left.box = {{100, 150}, 60, 30, 0};
+        left.box = {{100, 150}, 60, 30, 0.1};
         TrackState right = track(2, TrackStatus::confirmed);
-        right.box = {{300, 150}, 60, 30, 0};
+        right.box = {{300, 150}, 60, 30, 0.1};
         result->tracks = {left, right};
         ViewFrame frame = frameWith(result);
         showOnly(OverlayKind{"shadows"});
@@ -119,8 +119,8 @@ class OverlaysTest : public QObject {
         frame.shadow = FrameShadow{0, M_PI / 2, 40};
         view_->setFrame(frame);
         const QImage both = view_->picture();
-        QVERIFY(count(both, colour) > 200);
-        // Boxes end 15 px below their middle, and shadows 40 px further down: none lies above.
+        QVERIFY2(count(both, colour) > 60, qPrintable(QString::number(count(both, colour))));
+        // Boxes end 18 px below their middle, and shadows 40 px further down: none lies above.
         const auto half = [&](const QImage& picture, const QRectF& part) {
             const QPointF scale(picture.width() / 400.0, picture.height() / 300.0);
             return count(picture.copy(QRectF(part.x() * scale.x(), part.y() * scale.y(), part.width() * scale.x(),
@@ -128,14 +128,14 @@ class OverlaysTest : public QObject {
                                           .toRect()),
                          colour);
         };
-        QCOMPARE(half(both, {0, 0, 400, 132}), 0);
-        QVERIFY(half(both, {0, 170, 200, 40}) > 50);
-        QVERIFY(half(both, {200, 170, 200, 40}) > 50);
-        QCOMPARE(half(both, {0, 209, 400, 90}), 0);
+        QCOMPARE(half(both, {0, 0, 400, 128}), 0);
+        QVERIFY(half(both, {0, 172, 200, 40}) > 15);
+        QVERIFY(half(both, {200, 172, 200, 40}) > 15);
+        QCOMPARE(half(both, {0, 213, 400, 87}), 0);
         view_->setSelectedTrack(1);
         const QImage one = view_->picture();
-        QVERIFY(half(one, {0, 170, 200, 40}) > 50);
-        QCOMPARE(half(one, {200, 170, 200, 40}), 0);
+        QVERIFY(half(one, {0, 172, 200, 40}) > 15);
+        QCOMPARE(half(one, {200, 172, 200, 40}), 0);
         view_->setSelectedTrack(std::nullopt);
     }
 
