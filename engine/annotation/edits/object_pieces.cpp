@@ -5,18 +5,6 @@
 #include "annotation/keyframes/box_reader.h"
 
 namespace eyrie {
-namespace {
-
-constexpr double kKeptPx = 0.5;
-
-/// Puts keyframes in where `object` shows other boxes than it should.
-LabelledObject kept(LabelledObject object, const std::vector<FrameBox>& boxes, const CameraMotion& camera) {
-    ReductionOptions options;
-    options.tolerance_px = kKeptPx;
-    return refined(std::move(object), boxes, camera, options);
-}
-
-}  // namespace
 
 std::string nameOf(const LabelledObject& object) {
     return object.object_class + " " + std::to_string(object.id);
@@ -48,6 +36,12 @@ std::vector<FrameBox> shownBoxes(const LabelledObject& object, FrameIndex first,
     return boxes;
 }
 
+LabelledObject keptTo(LabelledObject object, const std::vector<FrameBox>& boxes, const CameraMotion& camera) {
+    ReductionOptions options;
+    options.tolerance_px = 0.5;
+    return refined(std::move(object), boxes, camera, options);
+}
+
 LabelledObject pieceOf(const LabelledObject& object, FrameIndex first, FrameIndex last, const CameraMotion& camera) {
     first = std::max(first, firstFrameOf(object));
     last = std::min(last, object.last_frame);
@@ -66,7 +60,7 @@ LabelledObject pieceOf(const LabelledObject& object, FrameIndex first, FrameInde
     piece.last_frame = last;
     // All of it: a keyframe that is put in near a cut may bend what lies three keyframes farther on.
     const std::vector<FrameBox> boxes = shownBoxes(object, first, last, camera);
-    return kept(std::move(piece), boxes, camera);
+    return keptTo(std::move(piece), boxes, camera);
 }
 
 LabelledObject joined(const LabelledObject& earlier, const LabelledObject& later, const LabelledObject& identity,
@@ -92,7 +86,7 @@ LabelledObject joined(const LabelledObject& earlier, const LabelledObject& later
     std::vector<FrameBox> boxes = shownBoxes(earlier, firstFrameOf(earlier), end, camera);
     const std::vector<FrameBox> tail = shownBoxes(later, firstFrameOf(later), later.last_frame, camera);
     boxes.insert(boxes.end(), tail.begin(), tail.end());
-    return kept(std::move(result), boxes, camera);
+    return keptTo(std::move(result), boxes, camera);
 }
 
 }  // namespace eyrie

@@ -486,6 +486,7 @@ TEST(SlowReview, RegionsContainWhatTheirBorderGoesAround) {
         }
         for (int r = 0; r < rows; ++r) {
             const double y = low + (r + 0.5) * (high - low) / rows;
+            if (std::abs(y - std::round(y)) < 1e-9) continue;  // along a border
             for (const double x : {0.317, 1.731, 2.919, 4.437, 5.111, 6.613, 7.237, 8.839, 9.343, 10.641, 11.747}) {
                 const bool covered = std::any_of(boxes.begin(), boxes.end(), [&](const OrientedBox& box) {
                     return std::abs(y - box.centre.y) < 1e-6 && std::abs(x - box.centre.x) <= box.length / 2;
