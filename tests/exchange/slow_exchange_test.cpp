@@ -214,6 +214,7 @@ TEST(SlowExchange, WhatIsImportedShowsInEachFrameWhatTheFileHas) {
     sequence.size = {200, 150};
     sequence.frame_count = 60;
     const ImportGround empty = groundOf({}, 1, 1), used = groundOf({}, 12, 4);
+    std::size_t kept = 0, all = 0;
     for (int i = 0; i < 60; ++i) {
         LabelFile labels;
         const int lowest = dice.number(-2, 3);
@@ -271,12 +272,12 @@ TEST(SlowExchange, WhatIsImportedShowsInEachFrameWhatTheFileHas) {
                 for (std::size_t c = 0; c < 4; ++c)
                     ASSERT_LE(cv::norm(shown.box.corners()[c] - there->second.box.corners()[c]), tolerance + 1e-6);
             }
-            if (tolerance > 0) {
-                ASSERT_LT(object.keyframes.size(), own + own / 4);
-            }
+            kept += tolerance > 0 ? object.keyframes.size() : 0;
+            all += tolerance > 0 ? own : 0;
         }
         ASSERT_EQ(plan.keyframes, keyframes);
     }
+    EXPECT_LT(kept, all);
 }
 
 TEST(SlowExchange, LabelsLeaveFrameByFrame) {
@@ -298,7 +299,8 @@ TEST(SlowExchange, LabelsLeaveFrameByFrame) {
             IgnoreRegion region;
             region.id = k;
             region.polygon = {{10, 10}, {40, 10}, {40, 30}, {10, 30}};
-            if (dice.happens(0.5)) region.polygon[2] += cv::Point2d(dice.between(-0.9, 0.9), 0);
+            if (dice.happens(0.5))
+                region.polygon[2].x += dice.happens(0.5) ? dice.between(-0.3, 0.3) : dice.between(3, 6);
             if (dice.happens(0.3)) region.polygon.pop_back();
             region.first_frame = dice.number(0, 130);
             region.last_frame = region.first_frame + dice.number(0, 30);
@@ -324,7 +326,7 @@ TEST(SlowExchange, LabelsLeaveFrameByFrame) {
                 LabelBox each;
                 each.ignore = true;
                 // What is a rectangle but for half a pixel is one box.
-                const bool whole = region.polygon.size() == 4 && std::abs(region.polygon[2].x - 40) < 0.8;
+                const bool whole = region.polygon.size() == 4 && std::abs(region.polygon[2].x - 40) < 1;
                 if (whole) {
                     each.box.length = -1;
                     slow[frame].push_back(each);

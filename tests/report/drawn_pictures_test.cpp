@@ -278,6 +278,13 @@ TEST(DrawnPictures, FramesAreReadOnceAndInTheirOrder) {
         VideoInfo info_;
     };
     ReviewReportInput input = inputOf({driver(3, {100, 100}, {4, 0})});
+    std::vector<Homography> steps(100);
+    for (int frame = 0; frame < 100; ++frame) {
+        steps[static_cast<std::size_t>(frame)].from_frame = frame;
+        steps[static_cast<std::size_t>(frame)].to_frame = frame + 1;
+        steps[static_cast<std::size_t>(frame)].matrix(0, 2) = -8;
+    }
+    input.reviewed.tracks.footage.camera = CameraMotion(steps);
     for (const FrameIndex frame : {70, 0, 70, 30})
         input.reviewed.events.push_back(eventOf({3}, frame, frame, frame, {9, 9}));
     input.reviewed.carried.of_event.resize(4);

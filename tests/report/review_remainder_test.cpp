@@ -151,7 +151,7 @@ TEST(ReviewRemainder, StretchesThatWereJudgedSayByWhom) {
     ReviewReportInput long_one = inputOf({}, 25, true, 4999);
     long_one.reviewed.unsearched = {{0, 1499}};
     EXPECT_THAT(told(long_one), HasSubstr("not 1:00.0 (30 %)"));
-    long_one.reviewed.unsearched = {{0, 1498}};
+    long_one.reviewed.unsearched = {{0, 1497}};
     EXPECT_THAT(told(long_one), HasSubstr("not 0:59.9 s ("));
 }
 
