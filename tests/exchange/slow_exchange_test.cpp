@@ -280,6 +280,46 @@ TEST(SlowExchange, WhatIsImportedShowsInEachFrameWhatTheFileHas) {
     EXPECT_LT(kept, all);
 }
 
+TEST(SlowExchange, WhatIsThereAlreadyLiesWithinAPixelAndTheTolerance) {
+    AnnotationSet set;
+    LabelledObject car;
+    car.id = 3;
+    car.keyframes.resize(1);
+    car.keyframes[0].box = {{50, 40}, 20, 10, 0};
+    car.keyframes[0].heading_set = true;
+    car.last_frame = 9;
+    set.objects[3] = car;
+    SequenceRecord sequence;
+    sequence.size = {200, 150};
+    sequence.frame_count = 10;
+    const auto doubles = [&](double off, double region_off, double tolerance) {
+        LabelFile labels;
+        for (FrameIndex frame = 0; frame < 10; ++frame) {
+            LabelBox box, area;
+            box.frame = area.frame = frame;
+            box.id = 7;
+            box.box = car.keyframes[0].box;
+            box.box.centre.x += off;
+            area.ignore = true;
+            area.box = {{104.5 + region_off, 64.5}, 30, 20, 0};
+            labels.boxes[frame] = {box, area};
+        }
+        if (set.regions.empty()) {
+            const ImportedLabels imported = annotationsOf(labels);
+            set.regions = imported.annotations.regions;
+            EXPECT_EQ(set.regions.size(), 1U);
+        }
+        return planImport(labels, sequence, {}, groundOf(set, 4, 2), tolerance).doubles;
+    };
+    EXPECT_EQ(doubles(0, 0, 0.5), 2);
+    EXPECT_EQ(doubles(1.45, 5, 0.5), 1);
+    EXPECT_EQ(doubles(1.55, 5, 0.5), 0);
+    EXPECT_EQ(doubles(0.95, 5, 0), 1);
+    EXPECT_EQ(doubles(1.05, 5, 0), 0);
+    EXPECT_EQ(doubles(9, 0.95, 0.5), 1) << "regions are as exact as they were drawn";
+    EXPECT_EQ(doubles(9, 1.05, 0.5), 0);
+}
+
 TEST(SlowExchange, LabelsLeaveFrameByFrame) {
     Dice dice(4);
     for (int i = 0; i < 60; ++i) {
