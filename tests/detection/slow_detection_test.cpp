@@ -145,6 +145,7 @@ TEST(SlowDetection, ComponentsBecomeBoxesAsTheRulesSay) {
         }
         std::vector<cv::Point2f> vectors;
         const int count = dice.number(0, 12);
+        vectors.reserve(static_cast<std::size_t>(count));
         for (int k = 0; k < count; ++k) vectors.emplace_back(dice.number(10, 50), dice.number(10, 80));
         const SceneScale scale{dice.happens(0.5) ? 0.1 : 0.23, 25, true};
         GradientOptions options = GradientOptions::thesis();
@@ -259,7 +260,7 @@ TEST(SlowDetection, ABoxIsLookedAtLongerAndShorterThroughAllWindowsAroundIt) {
     const WindowFit& fit = scanner.model().fit;
     Dice dice(4);
     for (int i = 0; i < 24; ++i) {
-        const auto scene = drivenScene(dice.between(-3, 3), {150, 118}, static_cast<std::uint64_t>(i + 1));
+        const auto scene = drivenScene(dice.between(-3, 3), {150, 118}, static_cast<std::uint64_t>(i) + 1);
         OrientedBox box = scene.vehicle;
         box.centre += cv::Point2d(dice.between(-30, 30), dice.between(-30, 30));
         box.length = dice.between(5, 120);
@@ -345,11 +346,12 @@ TEST(SlowDetection, WindowsVoteForTheirScaleAsTheRulesSay) {
     Dice dice(6);
     int voted = 0;
     for (int i = 0; i < 30; ++i) {
-        const auto scene = drivenScene(dice.between(-3, 3), {150, 118}, static_cast<std::uint64_t>(i + 1));
+        const auto scene = drivenScene(dice.between(-3, 3), {150, 118}, static_cast<std::uint64_t>(i) + 1);
         OrientedBox moving = scene.vehicle.scaled(dice.between(0.7, 1.6), dice.between(0.7, 1.6));
         moving.centre += cv::Point2d(dice.between(-3, 3), dice.between(-3, 3));
         std::vector<cv::Point2f> vectors;
         const int count = dice.number(4, 16);
+        vectors.reserve(static_cast<std::size_t>(count));
         for (int k = 0; k < count; ++k)
             vectors.emplace_back(scene.vehicle.toImage({dice.between(-24, 24), dice.between(-10, 10)}));
         const ScaleRange range{dice.between(0.06, 0.1), dice.between(0.1, 0.3)};
@@ -358,7 +360,9 @@ TEST(SlowDetection, WindowsVoteForTheirScaleAsTheRulesSay) {
             double gsd = 0, decision = 0;
         };
         std::vector<Seen> seen;
-        for (double gsd = range.finest_m_per_px; gsd <= range.coarsest_m_per_px; gsd *= 1.12) {
+        std::vector<double> scales{range.finest_m_per_px};
+        while (scales.back() * 1.12 <= range.coarsest_m_per_px) scales.push_back(scales.back() * 1.12);
+        for (const double gsd : scales) {
             const double length = options.car_length_m / gsd, width = options.car_width_m / gsd;
             if (length < 8 || length > 250 || 0.6 * length > moving.length) continue;
             const OrientedBox area{moving.centre, moving.length + 1.3 * length, moving.width + 1.6 * width,

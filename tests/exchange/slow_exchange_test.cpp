@@ -280,6 +280,50 @@ TEST(SlowExchange, WhatIsImportedShowsInEachFrameWhatTheFileHas) {
     EXPECT_LT(kept, all);
 }
 
+TEST(SlowExchange, BoxesOnAPannedGroundAreShownWhereTheFileHasThem) {
+    // The ground goes 3 px to the left and 1 px down a frame; some stand on it, some in the picture, some drive.
+    std::vector<Homography> steps(40);
+    for (int frame = 0; frame < 40; ++frame) {
+        Homography& step = steps[static_cast<std::size_t>(frame)];
+        step.from_frame = frame;
+        step.to_frame = frame + 1;
+        step.matrix(0, 2) = -3;
+        step.matrix(1, 2) = 1;
+    }
+    const CameraMotion camera(steps);
+    SequenceRecord sequence;
+    sequence.size = {400, 300};
+    sequence.frame_count = 40;
+    const ImportGround empty = groundOf({}, 1, 1);
+    for (const int last : {1, 2, 9, 39})
+        for (const double tolerance : {0.45, 1.5}) {
+            LabelFile labels;
+            for (FrameIndex frame = 0; frame <= last; ++frame)
+                for (const int id : {1, 2, 3, 4}) {
+                    LabelBox box;
+                    box.frame = frame;
+                    box.id = id;
+                    box.box = {{200, 40.0 * id}, 20, 10, id == 4 ? 0.3 : 0};
+                    if (id != 2) box.box.centre += cv::Point2d(-3, 1) * frame;
+                    if (id == 3) box.box.centre.x += 5 * frame;
+                    labels.boxes[frame].push_back(box);
+                }
+            const LabelImport plan = planImport(labels, sequence, camera, empty, tolerance);
+            ASSERT_EQ(plan.edit.objects.size(), 4U);
+            for (std::size_t i = 0; i < 4; ++i) {
+                const LabelledObject& object = *plan.edit.objects[i].after;
+                EXPECT_LE(object.keyframes.size(), 2U);
+                for (FrameIndex frame = 0; frame <= last; ++frame) {
+                    const OrientedBox& box = labels.boxes.at(frame)[i].box;
+                    const OrientedBox shown = boxAt(object, frame, camera).box;
+                    for (std::size_t c = 0; c < 4; ++c)
+                        ASSERT_LE(cv::norm(shown.corners()[c] - box.corners()[c]), tolerance + 1e-6)
+                            << object.id << ", frame " << frame;
+                }
+            }
+        }
+}
+
 TEST(SlowExchange, WhatIsThereAlreadyLiesWithinAPixelAndTheTolerance) {
     AnnotationSet set;
     LabelledObject car;

@@ -263,8 +263,10 @@ TEST(ReportFiles, PicturesStandInTheFileAsBase64) {
         ReportFile report;
         report.html = "<img src=\"a\"> and <img src=\"a\"><img src=\"b\">";
         report.add("a", ReportPicture::Kind::png, bytes, 10);
-        const std::string one = "<img src=\"data:image/png;base64," + text + "\">";
-        EXPECT_EQ(selfContained(report), one + " and " + one + "<img src=\"b\">");
+        const std::string source = "src=\"data:image/png;base64," + text + "\"";
+        std::string expected = "<img ";
+        expected.append(source).append("> and <img ").append(source).append("><img src=\"b\">");
+        EXPECT_EQ(selfContained(report), expected);
     }
     ReportFile kinds;
     kinds.html = "src=\"s\" src=\"j\"";

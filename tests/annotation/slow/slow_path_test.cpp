@@ -376,6 +376,7 @@ TEST(SlowPath, WholeWaysDecideExactly) {
     for (int way = 0; way < 14; ++way)
         for (const double length : {2.0, 8.0, 20.0}) {
             std::vector<Keyframe> keyframes;
+            keyframes.reserve(4);
             for (int i = 0; i < 4; ++i)
                 keyframes.push_back(test::keyframe(10 * i, {{50.0 + way * i, 60}, length, 4, 1}, false));
             const LabelledObject object = test::object(1, keyframes, 40);

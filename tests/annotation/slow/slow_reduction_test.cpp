@@ -252,9 +252,9 @@ std::vector<Keyframe> slowlyReduced(const std::vector<FrameBox>& boxes, const Ca
 std::vector<Keyframe> slowlyReduced(const std::vector<FrameBox>& boxes, const CameraMotion& camera,
                                     const ReductionOptions& options) {
     if (options.headings_set) return slowlyReduced(boxes, camera, options, true);
-    const auto free = slowlyReduced(boxes, camera, options, false);
+    auto free = slowlyReduced(boxes, camera, options, false);
     if (free.size() < 3) return free;
-    const auto headed = slowlyReduced(boxes, camera, options, true);
+    auto headed = slowlyReduced(boxes, camera, options, true);
     return headed.size() < free.size() ? headed : free;
 }
 

@@ -241,11 +241,10 @@ TEST(SlowReview, TracksAreProposedAsTheRulesSay) {
 std::string slowClass(const Proposal& proposal, const AnnotationSet& set, const CameraMotion& camera,
                       const std::string& drawn) {
     const LabelledObject& own = proposal.object;
-    const std::string kind = proposal.track_class == TrackClass::unknown ||
-                                     trackClassOf(drawn) == TrackClass::unknown ||
-                                     trackClassOf(drawn) == proposal.track_class
-                                 ? drawn
-                                 : commonestWordOf(proposal.track_class);
+    std::string kind = proposal.track_class == TrackClass::unknown || trackClassOf(drawn) == TrackClass::unknown ||
+                               trackClassOf(drawn) == proposal.track_class
+                           ? drawn
+                           : commonestWordOf(proposal.track_class);
     if (own.keyframes.empty()) return kind;
     AnnotationSet near;
     for (const auto& [id, object] : set.objects) {
@@ -337,7 +336,7 @@ TEST(SlowReview, WhatDeservesALookIsTold) {
                 return true;
             };
             for (FrameIndex frame = firstFrameOf(object); frame <= object.last_frame; ++frame) {
-                const auto spans = reviews.spansOf(id);
+                const auto& spans = reviews.spansOf(id);
                 for (const ReviewSpan& span : spans)
                     if (span.first_frame == frame && span.state == ReviewState::questionable)
                         add(frame, AttentionKind::questionable);

@@ -94,6 +94,7 @@ SlowStack slowlyStacked(const LabelledObject& object, FrameIndex frame, const Ca
     for (int y = 0; y < result.size.height; ++y)
         for (int x = 0; x < result.size.width; ++x) {
             std::vector<int> values;
+            values.reserve(layers.size());
             for (const cv::Mat& layer : layers) values.push_back(layer.at<unsigned char>(y, x));
             std::sort(values.begin(), values.end());
             result.stacked.at<unsigned char>(y, x) = static_cast<unsigned char>(values[(values.size() - 1) / 2]);
