@@ -201,8 +201,7 @@ TEST(PlaceGathering, SearchesAreThoseOfTheAreasThatThePlaceTouches) {
                 const auto& searches = explainer.evidence().searches;
                 std::size_t next = 0;
                 for (std::size_t k = 0; k < result.clusters.size(); ++k) {
-                    const bool searched = k < result.rois.size() && result.rois[k].area() > 0;
-                    const OrientedBox area = searched ? result.rois[k] : result.clusters[k].box;
+                    const OrientedBox& area = result.rois.at(k);
                     if (!area.contains(place.centre) && intersectionArea(area, place) <= 0) continue;
                     for (const SearchTrace& each : replay.trace(static_cast<int>(k))) {
                         ASSERT_LT(next, searches.size());
