@@ -246,13 +246,14 @@ TEST(PlaceGathering, WhateverStopsItItCanBeAskedAgain) {
         NotedRun run = shortRun();
         return PlaceExplainer(run.replaySource()).explain(frame, run.vehicle(0, frame), {})->sentence;
     }();
-    for (int which = 1; which < 4; ++which) {
+    for (int which = 1; which < 5; ++which) {
         NotedRun run = shortRun();
-        if (which == 1) run.stop_at_pixels = 26;     // while corners are found anew
-        if (which == 2) run.stop_at_result = 10;     // while tracks are followed
-        if (which == 3) run.stop_at_result = frame;  // before the frame is replayed
+        if (which % 2 == 1) run.stop_at_pixels = 26;  // while corners are found anew
+        if (which == 2) run.stop_at_result = 10;      // while tracks are followed
+        if (which == 4) run.stop_at_result = frame;   // before the frame is replayed
         PlaceExplainer explainer(run.replaySource());
-        EXPECT_FALSE(explainer.explain(frame, run.vehicle(0, frame), run.stop.get_token())) << which;
+        const OrientedBox place = which == 3 ? kNowhere : run.vehicle(0, frame);
+        EXPECT_FALSE(explainer.explain(frame, place, run.stop.get_token())) << which;
         if (which == 2) {
             EXPECT_EQ(run.asked.back(), 10) << "it goes no further";
         }
