@@ -107,9 +107,8 @@ int leaveDoublesOut(ImportedLabels& imported, const LabelFile& labels, const Cam
     constexpr double kSame_px = 1;
     const double within = kSame_px + tolerance_px;
     int left_out = 0;
-    const int step = imported.annotations.objects.empty() ? 0 : imported.id_step;
     for (const auto& [id, there] : alreadyLabelled(labels, present, camera, within))
-        left_out += static_cast<int>(imported.annotations.objects.erase(id + step));
+        left_out += static_cast<int>(imported.annotations.objects.erase(id + imported.id_step));
     left_out += static_cast<int>(std::erase_if(
         imported.annotations.regions, [&](const auto& entry) { return hasRegion(present, entry.second, kSame_px); }));
     return left_out;
@@ -180,12 +179,11 @@ LabelImport planImport(LabelFile labels, const SequenceRecord& sequence, const C
                                " objects or regions are labelled already with the same boxes, and were left out");
     }
     if (tolerance_px > 0) {
-        const int step = labels.boxes.empty() || imported.annotations.objects.empty() ? 0 : imported.id_step;
         std::map<int, Track> tracks;
         for (const auto& [frame, records] : labels.boxes) {
             for (const LabelBox& record : records) {
                 if (!record.id) continue;
-                Track& track = tracks[*record.id + step];
+                Track& track = tracks[*record.id + imported.id_step];
                 if (track.empty() || track.back()->frame != frame) track.push_back(&record);
             }
         }

@@ -74,11 +74,9 @@ std::optional<Explanation> PlaceExplainer::explain(FrameIndex frame, const Orien
     if (!gather(frame, stop)) return std::nullopt;
     evidence_.area = area;
     evidence_.searches.clear();
-    const auto& clusters = evidence_.result.clusters;
-    const auto& rois = evidence_.result.rois;
-    for (std::size_t k = 0; k < clusters.size(); ++k) {
-        const OrientedBox& near = k < rois.size() && rois[k].area() > 0 ? rois[k] : clusters[k].box;
-        if (intersectionArea(near, area) <= 0 && !near.contains(area.centre)) continue;
+    const auto& searched = evidence_.result.rois;  // around each cluster
+    for (std::size_t k = 0; k < searched.size(); ++k) {
+        if (intersectionArea(searched[k], area) <= 0 && !searched[k].contains(area.centre)) continue;
         if (stop.stop_requested()) return std::nullopt;
         for (SearchTrace& search : replay_.trace(static_cast<int>(k))) evidence_.searches.push_back(std::move(search));
     }

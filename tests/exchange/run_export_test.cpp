@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "exchange/project_labels.h"
 #include "formats/track_world.h"
+#include "store/project/video_start.h"
 #include "support/temporary_folder.h"
 #include "support/written_run.h"
 
@@ -87,6 +88,53 @@ TEST_F(RunExport, whatIsStoppedIsNotWrittenWithLess) {
                         "tracks-csv", [] { return nullptr; }, stop.get_token());
                 }),
                 testing::HasSubstr("stopped"));
+}
+
+/// A video that is not read.
+class SilentVideo : public FrameSource {
+ public:
+    SilentVideo() {
+        info_.size = {320, 240};
+        info_.frame_count = 10;
+        info_.frame_rate_hz = 25;
+    }
+    const VideoInfo& info() const override { return info_; }
+    Frame read(FrameIndex, bool) override { return {}; }
+    std::int64_t timeOf(FrameIndex index) const override { return index * 40'000LL; }
+
+ private:
+    VideoInfo info_;
+};
+
+TEST_F(RunExport, theVideoIsHandedOnWhereTheFormatTellsTimes) {
+    const OpenVideo open = [this]() -> std::unique_ptr<FrameSource> {
+        ++asked_;
+        return std::make_unique<SilentVideo>();
+    };
+    EXPECT_NE(openVideoFor("tracks-csv", run_, open), nullptr);
+    EXPECT_NE(openVideoFor(kVmtiFormat, run_, open), nullptr);
+    EXPECT_EQ(openVideoFor("native", run_, open), nullptr);
+    EXPECT_EQ(openVideoFor("no such format", run_, open), nullptr);
+    EXPECT_EQ(asked_, 2);
+    EXPECT_EQ(openVideoFor("tracks-csv", run_, [] { return nullptr; }), nullptr);
+}
+
+TEST_F(RunExport, timesCountFromTheStartThatIsSaidOrThatTheProjectKeeps) {
+    addWorld(labels_, "tracks-csv", project_, run_, nullptr, 5'000'000);
+    ASSERT_TRUE(labels_.about.world->utc_us);
+    EXPECT_EQ(labels_.about.world->utc_us(5), 5'200'000);
+    addWorld(labels_, "tracks-csv", project_, run_, nullptr);
+    EXPECT_FALSE(labels_.about.world->utc_us);
+    {
+        ProjectFile writable = ProjectFile::open(folder_ / "p.eyrie");
+        storeVideoStart(writable, run_.sequence.id, 1'231'798'102'000'000);
+    }
+    ProjectFile again = ProjectFile::open(folder_ / "p.eyrie", ProjectFile::Mode::read_only);
+    addWorld(labels_, "tracks-csv", again, run_, nullptr);
+    ASSERT_TRUE(labels_.about.world->utc_us);
+    EXPECT_EQ(labels_.about.world->utc_us(0), 1'231'798'102'000'000);
+    addWorld(labels_, kVmtiFormat, again, run_, nullptr, 7'000'000);
+    EXPECT_EQ(labels_.about.world->utc_us(0), 7'000'000) << "what is said now counts";
 }
 
 }  // namespace

@@ -215,6 +215,109 @@ TEST(VmtiRemarks, TellWhatIsMissingWhereSomethingIs) {
                                      "2 frames are left out: no stamp in the video belongs to the picture", last));
 }
 
+/// One frame with boxes of every kind.
+TEST_F(VmtiExport, TargetsSayWhatIsKnownOfEach) {
+    film("film.ts");
+    LabelStream labels = car(true, true);
+    auto world = std::make_shared<TrackWorld>(*labels.about.world);
+    // Places are known in the left half, heights in even frames, of one kind only in each fourth.
+    world->place = [](FrameIndex, cv::Point2d px) -> std::optional<GeoPoint> {
+        if (px.x > 80) return std::nullopt;
+        return GeoPoint{48 - px.y * 1e-6, 11 + px.x * 1e-6};
+    };
+    world->height = [](FrameIndex frame) -> std::optional<TrackWorld::Height> {
+        if (frame % 2 != 0) return std::nullopt;
+        return TrackWorld::Height{100.0 + frame, frame % 4 == 0};
+    };
+    labels.about.world = world;
+    labels.frames = [](const FrameVisitor& visit) {
+        for (FrameIndex frame = 4; frame <= 7; ++frame) {
+            std::vector<LabelBox> boxes(6);
+            for (std::size_t k = 0; k < boxes.size(); ++k) {
+                LabelBox& box = boxes[k];
+                box.frame = frame;
+                box.id = static_cast<int>(k);
+                box.box = {{20.4 + 20 * static_cast<double>(k), 50.6}, 10.5, 6.25, 0};
+                box.score = std::array{-0.5, 0.004, 0.996, 1.5, 0.5, 0.126}[k];
+            }
+            boxes[1].origin = StateOrigin::standing;
+            boxes[2].velocity = {0, 3};
+            boxes[4].id.reset();
+            boxes[5].id = -1;
+            if (frame == 5) boxes.erase(boxes.begin());
+            visit(frame, boxes);
+        }
+        LabelBox far;  // behind the video
+        far.frame = kFilmFrames + 1;
+        far.id = 9;
+        far.box = {{20, 50}, 10, 6, 0};
+        visit(far.frame, {far});
+    };
+    const VmtiReport report = copy(labels);
+    EXPECT_EQ(report.frames, kFilmFrames - 4) << "empty ones up to the end";
+    EXPECT_EQ(report.without_stamp, 2);
+    EXPECT_EQ(report.targets, 4 * 4 - 1);
+    EXPECT_EQ(report.without_place, 4) << "one a frame lies beyond 80 px";
+    EXPECT_EQ(report.clock_origin, "given");
+    EXPECT_EQ(report.place_origin, "made up");
+    const auto sets = setsOf(out_);
+    ASSERT_EQ(sets.size(), static_cast<std::size_t>(kFilmFrames - 4));
+    for (std::size_t i = 0; i < 4; ++i) {
+        const auto frame = static_cast<FrameIndex>(4 + i);
+        const auto& targets = sets[i].frame.targets;
+        ASSERT_EQ(targets.size(), frame == 5 ? 3U : 4U);
+        for (const vmti::Target& target : targets) {
+            const double x = 20.4 + 20.0 * target.id;
+            EXPECT_EQ(target.centre, cv::Point(20 + 20 * static_cast<int>(target.id), 51));
+            EXPECT_EQ(target.top_left, cv::Point(static_cast<int>(std::floor(x - 5.25 + 0.5)), 47));
+            EXPECT_EQ(target.bottom_right, cv::Point(static_cast<int>(std::ceil(x + 5.25 + 0.5)) - 1, 54));
+            const std::array<int, 4> percent{0, 0, 100, 100};
+            EXPECT_EQ(target.confidence_percent, percent[target.id]);
+            EXPECT_EQ(target.seen_before, target.id == 0 && frame > 5 ? frame - 5 : frame - 4);
+            EXPECT_EQ(target.place.has_value(), x <= 80);
+            EXPECT_EQ(target.ellipsoid_height_m.has_value(), frame == 4 && x <= 80);
+            if (target.ellipsoid_height_m) {
+                EXPECT_NEAR(*target.ellipsoid_height_m, 104, 0.2);
+            }
+            EXPECT_EQ(target.detection, target.id == 1 ? vmti::Detection::stopped : vmti::Detection::active);
+            EXPECT_EQ(target.first_utc_us, kFilmBegin + 160'000);
+            EXPECT_EQ(target.last_utc_us, kFilmBegin + 40'000 * frame);
+            EXPECT_EQ(target.velocity.has_value(), target.id == 2);
+            if (target.velocity) {
+                // 3 px are 3e-6 degrees of latitude or 0.3336 m to the south, 25 times a second.
+                EXPECT_NEAR(target.velocity->north_m_s, -8.34, 0.1);
+                EXPECT_NEAR(target.velocity->east_m_s, 0, 0.1);
+            }
+        }
+    }
+}
+
+TEST_F(VmtiExport, TheVelocityPointsWhereTheTrackGoes) {
+    film("film.ts");
+    LabelStream labels = car(true, true);
+    static const std::array<cv::Point2d, 4> kWays{{{3, 0}, {2, -3}, {-3, -1}, {-1, 2}}};
+    labels.frames = [](const FrameVisitor& visit) {
+        std::vector<LabelBox> boxes(4);
+        for (std::size_t k = 0; k < boxes.size(); ++k) {
+            boxes[k].frame = 3;
+            boxes[k].id = static_cast<int>(k);
+            boxes[k].box = {{40, 50}, 10, 6, 0};
+            boxes[k].velocity = kWays[k];
+        }
+        visit(3, boxes);
+    };
+    copy(labels);
+    const auto sets = setsOf(out_);
+    ASSERT_EQ(sets.size(), 1U);
+    ASSERT_EQ(sets[0].frame.targets.size(), 4U);
+    for (const vmti::Target& target : sets[0].frame.targets) {
+        const cv::Point2d px = kWays[target.id];
+        ASSERT_TRUE(target.velocity);
+        EXPECT_NEAR(target.velocity->east_m_s, px.x * 25 * 0.0746, 0.1) << target.id;
+        EXPECT_NEAR(target.velocity->north_m_s, -px.y * 25 * 0.1112, 0.1) << target.id;
+    }
+}
+
 TEST_F(VmtiExport, WithoutTimesNothingIsWritten) {
     film("film.ts");
     try {

@@ -108,6 +108,12 @@ IdentityChange fuseInParallel(const LabelledObject& kept, const LabelledObject& 
         result = joined(pieceOf(begins, 0, first - 1, camera), result, kept, false, camera);
     const LabelledObject& ends = kept.last_frame > other.last_frame ? kept : other;
     if (ends.last_frame > last) result = joined(result, pieceOf(ends, last + 1, kEver, camera), kept, false, camera);
+    // Every seam may have moved it by half a pixel.
+    std::vector<FrameBox> boxes = shownBoxes(begins, 0, first - 1, camera);
+    for (const auto& part : {shownBoxes(rule == FuseRule::mean ? middle : kept, first, last, camera),
+                             shownBoxes(ends, last + 1, kEver, camera)})
+        boxes.insert(boxes.end(), part.begin(), part.end());
+    result = keptTo(std::move(result), boxes, camera);
     change.after.push_back(withIdentity(std::move(result), kept));
     change.removed.push_back(other.id);
     change.review_moves.push_back({other.id, kept.id, 0, first - 1});
@@ -214,13 +220,11 @@ LabelledObject withFlags(const LabelledObject& object, FrameIndex first, FrameIn
         keyframe.ignore = flags.ignore.value_or(keyframe.ignore);
     }
     // The keyframes that carry the flags must not move the boxes.
-    ReductionOptions kept;
-    kept.tolerance_px = 0.5;
     std::vector<FrameBox> boxes = shownBoxes(object, firstFrameOf(object), object.last_frame, camera);
     boxes.erase(std::remove_if(boxes.begin(), boxes.end(),
                                [&](const FrameBox& box) { return !boxAt(result, box.frame, camera).visible(); }),
                 boxes.end());
-    return refined(std::move(result), boxes, camera, kept);
+    return keptTo(std::move(result), boxes, camera);
 }
 
 std::vector<LabelledObject> withClass(std::vector<LabelledObject> objects, const std::string& object_class,

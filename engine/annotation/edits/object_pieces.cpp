@@ -2,21 +2,9 @@
 
 #include <algorithm>
 
-#include "annotation/keyframes/dense_boxes.h"
+#include "annotation/keyframes/box_reader.h"
 
 namespace eyrie {
-namespace {
-
-constexpr double kKeptPx = 0.5;
-
-/// Puts keyframes in where `object` shows other boxes than it should.
-LabelledObject kept(LabelledObject object, const std::vector<FrameBox>& boxes, const CameraMotion& camera) {
-    ReductionOptions options;
-    options.tolerance_px = kKeptPx;
-    return refined(std::move(object), boxes, camera, options);
-}
-
-}  // namespace
 
 std::string nameOf(const LabelledObject& object) {
     return object.object_class + " " + std::to_string(object.id);
@@ -39,12 +27,19 @@ Keyframe shownAt(const LabelledObject& object, FrameIndex frame, const CameraMot
 std::vector<FrameBox> shownBoxes(const LabelledObject& object, FrameIndex first, FrameIndex last,
                                  const CameraMotion& camera) {
     std::vector<FrameBox> boxes;
+    BoxReader shown(object, camera);
     for (FrameIndex frame = std::max(first, firstFrameOf(object)); frame <= std::min(last, object.last_frame);
          ++frame) {
-        const LabelledBox box = boxAt(object, frame, camera);
+        const LabelledBox box = shown.at(frame);
         if (box.visible()) boxes.push_back({frame, box.box});
     }
     return boxes;
+}
+
+LabelledObject keptTo(LabelledObject object, const std::vector<FrameBox>& boxes, const CameraMotion& camera) {
+    ReductionOptions options;
+    options.tolerance_px = 0.5;
+    return refined(std::move(object), boxes, camera, options);
 }
 
 LabelledObject pieceOf(const LabelledObject& object, FrameIndex first, FrameIndex last, const CameraMotion& camera) {
@@ -63,21 +58,9 @@ LabelledObject pieceOf(const LabelledObject& object, FrameIndex first, FrameInde
         piece = withKeyframe(std::move(piece), shownAt(object, last, camera));
     }
     piece.last_frame = last;
-    // Only the path near a cut can differ.
-    std::vector<FrameBox> boxes;
-    const std::size_t count = piece.keyframes.size();
-    if (first > firstFrameOf(object)) {
-        boxes =
-            shownBoxes(object, first, count > kKeyframeReach ? piece.keyframes[kKeyframeReach].frame : last, camera);
-    }
-    // What no longer stands so long at its end would not brake as it did.
-    if (moves_on || last < object.last_frame) {
-        const FrameIndex from = count > kKeyframeReach ? piece.keyframes[count - 1 - kKeyframeReach].frame : first;
-        const auto tail =
-            shownBoxes(object, boxes.empty() ? from : std::max(from, boxes.back().frame + 1), last, camera);
-        boxes.insert(boxes.end(), tail.begin(), tail.end());
-    }
-    return kept(std::move(piece), boxes, camera);
+    // All of it: a keyframe that is put in near a cut may bend what lies three keyframes farther on.
+    const std::vector<FrameBox> boxes = shownBoxes(object, first, last, camera);
+    return keptTo(std::move(piece), boxes, camera);
 }
 
 LabelledObject joined(const LabelledObject& earlier, const LabelledObject& later, const LabelledObject& identity,
@@ -100,15 +83,10 @@ LabelledObject joined(const LabelledObject& earlier, const LabelledObject& later
         result.keyframes.push_back(gone);
     }
     result.keyframes.insert(result.keyframes.end(), later.keyframes.begin(), later.keyframes.end());
-    std::vector<FrameBox> boxes;
-    const std::size_t a = earlier.keyframes.size();
-    boxes = shownBoxes(
-        earlier, a > kKeyframeReach ? earlier.keyframes[a - kKeyframeReach].frame : firstFrameOf(earlier), end, camera);
-    const FrameIndex until =
-        later.keyframes.size() > kKeyframeReach ? later.keyframes[kKeyframeReach].frame : later.keyframes.back().frame;
-    const auto tail = shownBoxes(later, firstFrameOf(later), until, camera);
+    std::vector<FrameBox> boxes = shownBoxes(earlier, firstFrameOf(earlier), end, camera);
+    const std::vector<FrameBox> tail = shownBoxes(later, firstFrameOf(later), later.last_frame, camera);
     boxes.insert(boxes.end(), tail.begin(), tail.end());
-    return kept(std::move(result), boxes, camera);
+    return keptTo(std::move(result), boxes, camera);
 }
 
 }  // namespace eyrie

@@ -19,6 +19,9 @@ Keyframe shownAt(const LabelledObject& object, FrameIndex frame, const CameraMot
 std::vector<FrameBox> shownBoxes(const LabelledObject& object, FrameIndex first, FrameIndex last,
                                  const CameraMotion& camera);
 
+/// Puts keyframes in where an object shows other boxes than these, by more than half a pixel.
+LabelledObject keptTo(LabelledObject object, const std::vector<FrameBox>& boxes, const CameraMotion& camera);
+
 /// The part of an object in [first, last], which must meet its life; with keyframes at both cuts, and where the path
 /// between would change by more than half a pixel.
 LabelledObject pieceOf(const LabelledObject& object, FrameIndex first, FrameIndex last, const CameraMotion& camera);

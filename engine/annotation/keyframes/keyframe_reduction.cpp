@@ -153,7 +153,7 @@ class Reducer {
         BoxReader reader = shown();
         double worst = 0;
         // What one place for a keyframe leaves far off, the next often does, too.
-        if (suspect_ >= first && suspect_ < last && !given_up_[suspect_]) worst = boxes_.deviation(suspect_, reader);
+        if (suspect_ >= first && suspect_ < last) worst = boxes_.deviation(suspect_, reader);
         for (std::size_t i = first; i < last && worst < enough; ++i) {
             if (given_up_[i]) continue;
             const double excess = boxes_.deviation(i, reader);

@@ -105,7 +105,7 @@ ObjectStack stackObject(const LabelledObject& object, FrameIndex frame, const Ca
     const cv::Rect inside = grid.inside(here.box);
     const int shift = static_cast<int>(std::lround(options.largest_shift_px * grid.samples_per_px));
 
-    ImageStack stack(options.arrangement, grid.size, std::clamp(options.layers, 1, 4096));
+    ImageStack stack(options.arrangement, grid.size, options.layers);
     for (const FrameIndex other : framesAround(object, frame, options.layers)) {
         if (stop.stop_requested()) return result;
         if (other == frame) {
