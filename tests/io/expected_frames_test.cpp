@@ -189,6 +189,7 @@ TEST(ExpectedFramesTest, AsManyAreReadAsFitBesideWhatIsReadAheadAndTheDecoder) {
     stage.cache->get(10);
     constexpr int kFit = kRoom - kOfDecoder - kAhead - 1;
     std::vector<FrameIndex> wished;
+    wished.reserve(20);
     for (int i = 0; i < 20; ++i) wished.push_back(400 + 10 * i);
     stage.cache->expect(wished);
     ASSERT_TRUE(stage.waitForExpected(kFit));

@@ -58,7 +58,8 @@ std::vector<int> RowsAhead::rowsInOrder() const {
     const int begin = in_view ? current : first;
     const int end = in_view ? std::min(count - 1, std::max(last, current + kNextRows)) : last;
     std::vector<int> rows;
-    rows.reserve(static_cast<std::size_t>(end - first + 1));
+    const int span = end - first + 1;
+    rows.reserve(static_cast<std::size_t>(span));
     for (int row = begin; row <= end; ++row) rows.push_back(row);
     for (int row = begin - 1; row >= first; --row) rows.push_back(row);
     return rows;
@@ -80,5 +81,3 @@ bool RowsAhead::eventFilter(QObject* watched, QEvent* event) {
 }
 
 }  // namespace eyrie::ui
-
-#include "moc_rows_ahead.cpp"

@@ -19,8 +19,6 @@ class TablePanel;
 /// those below it first, then of those above; of rows in view, and of the next few that keys lead to. None while the
 /// video plays, a run works or a live source is watched, while the list is hidden, or where the video is missing.
 class RowsAhead : public QObject {
-    Q_OBJECT
-
  public:
     static constexpr int kStill_ms = 150;
     static constexpr int kNextRows = 3;  ///< after the selected one that are read though they may not be in view
