@@ -184,6 +184,7 @@ class ModelsTest : public QObject {
         QVERIFY2(!tip(0).contains(QStringLiteral("Light")), "nothing is known");
         QVERIFY2(tip(1).contains(QStringLiteral("Light: shadows fall to 0° (to the right) in frame 0, 2.0 m")),
                  qPrintable(tip(1)));
+        QVERIFY2(Qt::mightBeRichText(tip(1)), "its lines are broken to fit the screen");
     }
 
     void aRunIsRenamedInItsRow() {

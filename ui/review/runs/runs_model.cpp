@@ -148,7 +148,8 @@ QString RunsModel::toolTipOf(const RunRecord& run) const {
     if (const QString light = lightText(run); !light.isEmpty()) lines << tr("Light: %1").arg(light);
     if (run.live && run.id != live_run_) lines << tr("Written by %1").arg(QString::fromStdString(run.writer));
     if (!run.message.empty()) lines << QString::fromStdString(run.message);
-    return lines.join(QLatin1Char('\n'));
+    for (QString& line : lines) line = line.toHtmlEscaped();
+    return QStringLiteral("<p>%1</p>").arg(lines.join(QStringLiteral("<br>")));  // only rich text breaks long lines
 }
 
 QString RunsModel::helpOf(int column) const {
