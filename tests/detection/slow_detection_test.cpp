@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numeric>
 #include <opencv2/imgproc.hpp>
-#include <random>
 
 #include "core/geometry/angle.h"
 #include "detection/segmenters/component_boxes.h"
@@ -14,21 +13,13 @@
 #include "detection/sliding_window/window_hypotheses.h"
 #include "detection/trained_window_model.h"
 #include "imaging/upright_patch.h"
+#include "support/dice.h"
 
 /// Boxes of components, windows and what they vote for, against the same worked out as their rules are told.
 namespace eyrie::slow_detection_test {
 namespace {
 
-class Dice {
- public:
-    explicit Dice(unsigned seed) : dice_(seed) {}
-    double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(dice_); }
-    int number(int low, int high) { return std::uniform_int_distribution<int>(low, high)(dice_); }
-    bool happens(double share) { return between(0, 1) < share; }
-
- private:
-    std::mt19937 dice_;
-};
+using test::Dice;
 
 /// A box by its sides.
 struct Sides {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <map>
-#include <random>
 #include <set>
 
 #include "annotation/edits/ignore_regions.h"
@@ -13,6 +12,7 @@
 #include "exchange/label_import.h"
 #include "exchange/loose_boxes.h"
 #include "exchange/project_labels.h"
+#include "support/dice.h"
 #include "support/temporary_folder.h"
 #include "support/written_run.h"
 
@@ -20,16 +20,7 @@
 namespace eyrie::slow_exchange_test {
 namespace {
 
-class Dice {
- public:
-    explicit Dice(unsigned seed) : dice_(seed) {}
-    double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(dice_); }
-    int number(int low, int high) { return std::uniform_int_distribution<int>(low, high)(dice_); }
-    bool happens(double share) { return between(0, 1) < share; }
-
- private:
-    std::mt19937 dice_;
-};
+using test::Dice;
 
 /// Links boxes of neighbouring frames, one best pair after the other.
 void linkSlowly(LabelFile& labels) {

@@ -39,35 +39,25 @@ bool TrackOccupancy::all(FrameIndex frame, Holds holds) const {
     if (alive == alive_.end()) return true;
     return std::all_of(alive->second.begin(), alive->second.end(), [&](const TrackPath* path) {
         const TimedPathState* state = path->at(frame);
-        return state == nullptr || holds(*path, state->second);
+        return state == nullptr || holds(OrientedBox(state->second.box));
     });
 }
 
 std::vector<OrientedBox> TrackOccupancy::in(FrameIndex frame) const {
     std::vector<OrientedBox> boxes;
-    all(frame, [&](const TrackPath&, const PathState& state) {
-        boxes.push_back(state.box);
-        return true;
-    });
-    return boxes;
-}
-
-std::vector<OrientedBox> TrackOccupancy::others(FrameIndex frame, TrackId than, double least_score) const {
-    std::vector<OrientedBox> boxes;
-    all(frame, [&](const TrackPath& path, const PathState& state) {
-        if (path.id != than && state.score >= least_score) boxes.push_back(state.box);
+    all(frame, [&](const OrientedBox& box) {
+        boxes.push_back(box);
         return true;
     });
     return boxes;
 }
 
 bool TrackOccupancy::isFree(FrameIndex frame, const OrientedBox& box) const {
-    return all(frame, [&](const TrackPath&, const PathState& other) { return overlap(other.box, box) <= kFree; });
+    return all(frame, [&](const OrientedBox& other) { return overlap(other, box) <= kFree; });
 }
 
 bool TrackOccupancy::isBare(FrameIndex frame, const OrientedBox& box) const {
-    return all(frame,
-               [&](const TrackPath&, const PathState& other) { return !(intersectionArea(box, other.box) > 0); });
+    return all(frame, [&](const OrientedBox& other) { return !(intersectionArea(box, other) > 0); });
 }
 
 }  // namespace eyrie

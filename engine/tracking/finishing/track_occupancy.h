@@ -16,8 +16,6 @@ class TrackOccupancy {
 
     /// All boxes in a frame.
     std::vector<OrientedBox> in(FrameIndex frame) const;
-    /// Those of all tracks but one whose score is so high at least.
-    std::vector<OrientedBox> others(FrameIndex frame, TrackId than, double least_score) const;
     /// Whether a box of that frame overlaps no other by more than 0.15.
     bool isFree(FrameIndex frame, const OrientedBox& box) const;
     /// Whether it touches no other.
@@ -28,7 +26,7 @@ class TrackOccupancy {
     void reaches(const TrackPath& path, FrameIndex frame);
 
  private:
-    /// Whether it is so for all tracks of a frame and their states.
+    /// Whether it is so for all boxes of a frame.
     template <class Holds>
     bool all(FrameIndex frame, Holds holds) const;
 

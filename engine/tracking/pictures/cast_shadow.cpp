@@ -165,11 +165,6 @@ std::vector<CastShadow> shadowsOf(const std::vector<StretchLight>& read) {
     return shadows;
 }
 
-std::vector<CastShadow> castShadows(const std::vector<SilhouetteLook>& looks, const GroundTurns& turns,
-                                    const SceneScale& scale) {
-    return shadowsOf(readLight(looks, turns, scale));
-}
-
 const CastShadow* shadowIn(const std::vector<CastShadow>& shadows, FrameIndex stretch) {
     const auto found =
         std::lower_bound(shadows.begin(), shadows.end(), stretch,

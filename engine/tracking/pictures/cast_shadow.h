@@ -37,10 +37,6 @@ std::vector<StretchLight> readLight(const std::vector<SilhouetteLook>& looks, co
 /// Those that are used, of stretches in which enough vehicles agree; nothing at night and under clouds.
 std::vector<CastShadow> shadowsOf(const std::vector<StretchLight>& read);
 
-/// The same at once.
-std::vector<CastShadow> castShadows(const std::vector<SilhouetteLook>& looks, const GroundTurns& turns,
-                                    const SceneScale& scale);
-
 /// That of a stretch among them, null where it has none.
 const CastShadow* shadowIn(const std::vector<CastShadow>& shadows, FrameIndex stretch);
 

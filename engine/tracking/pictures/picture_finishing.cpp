@@ -132,9 +132,12 @@ void finishByPictures(FinishedTracks& finished, const GroundMotion& ground, cons
         finished.light = untoldLight(paths, LightOutcome::switched_off);
         return;
     }
+    if (dark) {
+        finished.light = toldBeams(takeOutBeams(paths, looks), turns);
+        return;
+    }
     std::map<TrackId, BoxTrim> trims = takeOutShadows(paths, looks, shadows, turns, scale);
     finished.light = toldShadows(light, turns, scale, paths, std::move(trims), mere_shadows);
-    if (dark) finished.light = toldBeams(takeOutBeams(paths, looks), turns);
 }
 
 }  // namespace eyrie

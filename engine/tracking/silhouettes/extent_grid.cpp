@@ -47,8 +47,10 @@ ExtentGrid::Sample ExtentGrid::sampled(const cv::Mat& gray, const cv::Matx33d& p
     Sample sample;
     sample.gray = grid_.sampled(gray, picture_from_here, &sample.unknown);
     const cv::Matx33d back = picture_from_here.inv();
-    for (const OrientedBox& other : others)
-        cover(sample.unknown, other, beside_vehicle ? 0 : kAboutOthers * metre_, back);
+    for (const OrientedBox& other : others) {
+        if (mayReach(other, picture_from_here))
+            cover(sample.unknown, other, beside_vehicle ? 0 : kAboutOthers * metre_, back);
+    }
     return sample;
 }
 

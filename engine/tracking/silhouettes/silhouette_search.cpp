@@ -45,8 +45,6 @@ class SilhouetteSearch::Plan {
                              SilhouetteGrid(box, kMarginAbout * metre, std::max(0.5, kGridStep * metre)),
                              ExtentGrid(box, metre),
                              {}};
-                look.others =
-                    closeTo(look.extents, taken_.others(state->first, path.id, kSureVehicle), cv::Matx33d::eye());
                 addGrounds(look, path, -1);
                 addGrounds(look, path, 1);
                 if (look.grounds.empty()) continue;
@@ -87,15 +85,8 @@ class SilhouetteSearch::Plan {
             const bool is_near = near < kGroundsASide;
             near += is_near ? 1 : 0;
             far += is_far ? 1 : 0;
-            if (is_near || is_far)
-                look.grounds.push_back({frame, there, closeTo(look.extents, taken_.in(frame), there), is_near, is_far});
+            if (is_near || is_far) look.grounds.push_back({frame, there, is_near, is_far});
         }
-    }
-
-    static std::vector<OrientedBox> closeTo(const ExtentGrid& grid, std::vector<OrientedBox> boxes,
-                                            const cv::Matx33d& map) {
-        std::erase_if(boxes, [&](const OrientedBox& box) { return !grid.mayReach(box, map); });
-        return boxes;
     }
 
     /// Whether no track is near the place of a box, which the map takes into the frame.
@@ -133,25 +124,39 @@ SilhouetteSearch::SilhouetteSearch(const std::vector<TrackPath>& paths, const Gr
         wanting_[planned_[i].look.frame].push_back(i);
         for (const Ground& bare : planned_[i].grounds) wanting_[bare.frame].push_back(i);
     }
+    for (const TrackPath& path : paths) {
+        for (const auto& [frame, state] : path.states) {
+            if (wanting_.contains(frame)) boxes_[frame].push_back({path.id, state.score, state.box});
+        }
+    }
 }
 
 void SilhouetteSearch::show(FrameIndex frame, const cv::Mat& gray) {
     const auto wanting = wanting_.find(frame);
     if (wanting == wanting_.end()) return;
-    for (const std::size_t i : wanting->second) take(planned_[i], frame, gray);
+    for (const std::size_t i : wanting->second) take(planned_[i], frame, gray, boxes_[frame]);
     wanting_.erase(wanting);
+    boxes_.erase(frame);
 }
 
-void SilhouetteSearch::take(Planned& planned, FrameIndex frame, const cv::Mat& gray) {
-    if (!gray.empty() && frame == planned.look.frame) {
+void SilhouetteSearch::take(Planned& planned, FrameIndex frame, const cv::Mat& gray,
+                            const std::vector<TrackBox>& boxes) {
+    const bool shows_vehicle = frame == planned.look.frame;
+    std::vector<OrientedBox> others;
+    for (const TrackBox& each : boxes) {
+        // Who is not sure may be a part of the vehicle itself.
+        const bool is_other = each.track != planned.look.track && each.score >= kSureVehicle;
+        if (is_other || !shows_vehicle) others.emplace_back(each.box);
+    }
+    if (!gray.empty() && shows_vehicle) {
         planned.vehicle = planned.grid.sampled(gray);
-        planned.vehicle_about = planned.extents.sampled(gray, cv::Matx33d::eye(), planned.others, true);
+        planned.vehicle_about = planned.extents.sampled(gray, cv::Matx33d::eye(), others, true);
     } else if (!gray.empty()) {
         const auto ground = std::find_if(planned.grounds.begin(), planned.grounds.end(),
                                          [&](const Ground& each) { return each.frame == frame; });
         cv::Mat bare = ground->near ? planned.grid.sampled(gray, ground->way) : cv::Mat();
         if (!bare.empty()) planned.seen.push_back(std::move(bare));
-        ExtentGrid::Sample about = planned.extents.sampled(gray, ground->way, ground->others, false);
+        ExtentGrid::Sample about = planned.extents.sampled(gray, ground->way, others, false);
         if (ground->near) planned.near_seen.push_back(about);
         if (ground->far) planned.far_seen.push_back(std::move(about));
     }
@@ -160,7 +165,6 @@ void SilhouetteSearch::take(Planned& planned, FrameIndex frame, const cv::Mat& g
     planned.vehicle.release();
     planned.seen = {};
     planned.grounds = {};
-    planned.others = {};
     planned.vehicle_about = {};
     planned.near_seen = {};
     planned.far_seen = {};

@@ -47,17 +47,15 @@ class SilhouetteSearch {
     /// A picture of the same ground without the vehicle's box.
     struct Ground {
         FrameIndex frame = 0;
-        cv::Matx33d way;                  ///< from the picture with the vehicle
-        std::vector<OrientedBox> others;  ///< other vehicles that are close by
-        bool near = false;                ///< among the nearest ones, with which the box is compared …
-        bool far = false;                 ///< … and those that the vehicle is so far from that no part of it is there
+        cv::Matx33d way;    ///< from the picture with the vehicle
+        bool near = false;  ///< among the nearest ones, with which the box is compared …
+        bool far = false;   ///< … and those that the vehicle is so far from that no part of it is there
     };
     /// A look of which not all pictures have come.
     struct Planned {
         SilhouetteLook look;
         SilhouetteGrid grid;
         ExtentGrid extents;
-        std::vector<OrientedBox> others;  ///< other vehicles that are close by
         std::vector<Ground> grounds = {};
         FrameIndex last = 0;  ///< the last picture of all
         cv::Mat vehicle = {};
@@ -66,13 +64,21 @@ class SilhouetteSearch {
         std::vector<ExtentGrid::Sample> near_seen = {};
         std::vector<ExtentGrid::Sample> far_seen = {};
     };
+    /// A box of a track in some frame.
+    struct TrackBox {
+        TrackId track = 0;
+        float score = 0;
+        PathBox box;
+    };
     class Plan;
 
-    void take(Planned& planned, FrameIndex frame, const cv::Mat& gray);
+    void take(Planned& planned, FrameIndex frame, const cv::Mat& gray, const std::vector<TrackBox>& boxes);
     void look(Planned& planned);
 
     std::vector<Planned> planned_;
     std::map<FrameIndex, std::vector<std::size_t>> wanting_;  ///< looks, by the pictures that have not come
+    /// What tracks cover there, as they were before anything was made of looks.
+    std::map<FrameIndex, std::vector<TrackBox>> boxes_;
     std::vector<SilhouetteLook> looks_;
 };
 

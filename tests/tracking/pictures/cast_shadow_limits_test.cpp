@@ -44,7 +44,7 @@ SilhouetteLook saying(TrackId track, cv::Point2d reach, double heading = 0, Fram
 }
 
 std::vector<CastShadow> found(const std::vector<SilhouetteLook>& looks, const SceneScale& scale = kScale) {
-    return castShadows(looks, zooming(1), scale);
+    return shadowsOf(readLight(looks, zooming(1), scale));
 }
 
 /// Vehicles that agree, with ids from 1 on.
@@ -153,12 +153,12 @@ TEST(CastShadowLimits, OnlySureVehiclesAreAsked) {
 TEST(CastShadowLimits, AStretchWithoutOneDoesNotKeepTheNextFromIts) {
     std::vector<SilhouetteLook> looks = agreeing(3, {1, 0});  // too few
     for (int i = 0; i < 4; ++i) looks.push_back(saying(10 + i, {0, 1}, 0, 30));
-    auto shadows = castShadows(looks, zooming(1, true), kScale);
+    auto shadows = shadowsOf(readLight(looks, zooming(1, true), kScale));
     ASSERT_EQ(shadows.size(), 1U);
     EXPECT_EQ(shadows[0].stretch, 20);
     const std::vector<SilhouetteLook> shorter = agreeing(6, {0.1, 0});
     looks.insert(looks.end(), shorter.begin(), shorter.end());
-    shadows = castShadows(looks, zooming(1, true), kScale);
+    shadows = shadowsOf(readLight(looks, zooming(1, true), kScale));
     ASSERT_EQ(shadows.size(), 1U);
     EXPECT_EQ(shadows[0].stretch, 20);
 }
@@ -171,7 +171,7 @@ TEST(CastShadowLimits, AMetreIsOneHoweverNearTheCameraAndTheVehicle) {
         looks.push_back(saying(i + 1, {1, 0.4}, 0, frame, 5 * std::pow(kFactor, frame)));
     }
     const GroundTurns turns = zooming(kFactor);
-    auto shadows = castShadows(looks, turns, kScale);
+    auto shadows = shadowsOf(readLight(looks, turns, kScale));
     ASSERT_EQ(shadows.size(), 1U);
     EXPECT_NEAR(shadows[0].reach_m.x, 0.945, 0.02);
     const cv::Point2d later = reachAt({0, {1, 0.4}, 6, 1}, turns.at(30), {320, 180}, kScale);

@@ -73,7 +73,7 @@ const cv::Point2d kReach(0.9, 0.6);
 TEST(CastShadow, IsWhereVehiclesSayWhileTheCameraTurns) {
     for (const double turn : {0.0, 0.02, -0.03}) {
         const GroundTurns turns = turning(turn);
-        const auto shadows = castShadows(crossing(6, kReach, turn), turns, kScale);
+        const auto shadows = shadowsOf(readLight(crossing(6, kReach, turn), turns, kScale));
         ASSERT_EQ(shadows.size(), 1U) << turn;
         EXPECT_NEAR(shadows[0].reach_m.x, kReach.x, 0.07) << turn;
         EXPECT_NEAR(shadows[0].reach_m.y, kReach.y, 0.07) << turn;
@@ -87,22 +87,22 @@ TEST(CastShadow, IsWhereVehiclesSayWhileTheCameraTurns) {
 }
 
 TEST(CastShadow, NeedsFourVehicles) {
-    EXPECT_EQ(castShadows(crossing(3, kReach, 0), turning(0), kScale).size(), 0U);
-    EXPECT_EQ(castShadows(crossing(4, kReach, 0), turning(0), kScale).size(), 1U);
+    EXPECT_EQ(shadowsOf(readLight(crossing(3, kReach, 0), turning(0), kScale)).size(), 0U);
+    EXPECT_EQ(shadowsOf(readLight(crossing(4, kReach, 0), turning(0), kScale)).size(), 1U);
 }
 
 TEST(CastShadow, NeedsVehiclesThatAgree) {
     std::vector<SilhouetteLook> looks;
     looks.reserve(12);
     for (int i = 0; i < 12; ++i) looks.push_back(lookAt(i + 1, 0, 0.3 * i, turned(kReach, 0.52 * i)));
-    EXPECT_TRUE(castShadows(looks, turning(0), kScale).empty());
-    EXPECT_TRUE(castShadows(crossing(6, {0.1, 0.1}, 0), turning(0), kScale).empty());
+    EXPECT_TRUE(shadowsOf(readLight(looks, turning(0), kScale)).empty());
+    EXPECT_TRUE(shadowsOf(readLight(crossing(6, {0.1, 0.1}, 0), turning(0), kScale)).empty());
 }
 
 TEST(CastShadow, IsNoneWhereBoxesHoldAllOfIt) {
     // An oblique view shows the shaded side of the vehicles themselves, and that belongs to their boxes.
-    EXPECT_EQ(castShadows(crossing(6, kReach, 0, 0.9), turning(0), kScale).size(), 1U);
-    EXPECT_TRUE(castShadows(crossing(6, kReach, 0, 1), turning(0), kScale).empty());
+    EXPECT_EQ(shadowsOf(readLight(crossing(6, kReach, 0, 0.9), turning(0), kScale)).size(), 1U);
+    EXPECT_TRUE(shadowsOf(readLight(crossing(6, kReach, 0, 1), turning(0), kScale)).empty());
 }
 
 TEST(CastShadow, WhereThereIsNoneItIsSaidWhy) {
@@ -131,7 +131,7 @@ TEST(CastShadow, HowDarkItIsIsWhatMostSureVehiclesSay) {
 TEST(CastShadow, IsSoughtAnewAfterAGap) {
     std::vector<SilhouetteLook> looks = crossing(5, kReach, 0);
     for (int i = 0; i < 5; ++i) looks.push_back(lookAt(i + 10, 35, 1.3 * i, {-kReach.x, kReach.y}));
-    const auto shadows = castShadows(looks, turning(0, 40, 30), kScale);
+    const auto shadows = shadowsOf(readLight(looks, turning(0, 40, 30), kScale));
     ASSERT_EQ(shadows.size(), 2U);
     EXPECT_EQ(shadows[0].stretch, 0);
     EXPECT_EQ(shadows[1].stretch, 30);
@@ -158,7 +158,7 @@ TEST(CastShadow, IsTakenOutOfBoxesAsFarAsTheyHoldIt) {
     const OrientedBox once = paths[2].states[0].second.box;
     const GroundTurns turns = turning(0);
     const double whole = OrientedBox(paths[0].states[0].second.box).area();
-    const auto trims = takeOutShadows(paths, looks, castShadows(looks, turns, kScale), turns, kScale);
+    const auto trims = takeOutShadows(paths, looks, shadowsOf(readLight(looks, turns, kScale)), turns, kScale);
     ASSERT_TRUE(trims.contains(20));
     EXPECT_NEAR(trims.at(20).along, 0.8, 0.05);
     EXPECT_NEAR(trims.at(20).across, 0.8, 0.05);
