@@ -24,8 +24,8 @@ TEST(ScaleOutcomes, AssumptionsGrowByTwoFifths) {
 }
 
 TEST(ScaleOutcomes, ScoreIsOfWhatLooksLikeVehiclesAndLittleElse) {
-    // 5 of 10 detections look like vehicles, 2 of 3 tracks have a car's size: 6 · (5/10)² · (3/5)².
-    EXPECT_NEAR((ScaleOutcome{10, 5, 6, 3, 2}).score(), 0.54, 1e-12);
+    // 5 of 80 detections look like vehicles, 2 of 3 tracks have a car's size: 6 · (5/80)^¾ · (3/5)⁴.
+    EXPECT_NEAR((ScaleOutcome{80, 5, 6, 3, 2}).score(), 0.0972, 1e-12);
     EXPECT_EQ((ScaleOutcome{10, 0, 6, 3, 2}).score(), 0);
     EXPECT_EQ(ScaleOutcome().score(), 0);
     const ScaleOutcome both = ScaleOutcome{10, 5, 6, 3, 2} + ScaleOutcome{1, 2, 3, 4, 5};
@@ -38,6 +38,30 @@ TEST(ScaleOutcomes, ScoreIsOfWhatLooksLikeVehiclesAndLittleElse) {
     slow.car_speeds_m_s = {3, 4};
     fast.car_speeds_m_s = {20};
     EXPECT_EQ((slow + fast).car_speeds_m_s, (std::vector<double>{3, 4, 20}));
+}
+
+TEST(ScaleOutcomes, ManyCarSizedTracksSayMoreThanAFewThatLookTheMoreLikeVehicles) {
+    // Too fine an assumption: every other window looks like a vehicle, but half of the tracks are none of a car's size.
+    const ScaleOutcome too_fine{40, 20, 10, 8, 4};
+    const ScaleOutcome right{100, 20, 10, 8, 7};
+    EXPECT_GT(right.score(), too_fine.score());
+}
+
+TEST(ScaleOutcomes, InTheDarkSizesAreThoseOfVehiclesWithWhatTheyLight) {
+    const auto found = [](double in_dark) {
+        std::vector<ScaleOutcome> outcomes(kScaleAssumptions);
+        outcomes.at(4) = {24, 24, 200, 4, 4};
+        outcomes.at(4).in_dark = in_dark;
+        return estimateOfScale(outcomes).value().gsd_m_per_px;
+    };
+    EXPECT_NEAR(found(0), assumedGsd(4), 1e-12);
+    EXPECT_NEAR(found(24), assumedGsd(4) * std::exp(0.3), 1e-12);
+    EXPECT_NEAR(found(6), assumedGsd(4) * std::exp(0.3 / 4), 1e-12) << "a quarter of the pictures, or a quarter dark";
+    ScaleOutcome day{30, 8, 1, 4, 4};
+    ScaleOutcome night{10, 8, 1, 4, 4};
+    night.in_dark = 10;
+    EXPECT_DOUBLE_EQ((day + night).darkness(), 0.25);
+    EXPECT_EQ(ScaleOutcome().darkness(), 0);
 }
 
 TEST(ScaleOutcomes, EightLooksAndACarAreTraffic) {
@@ -162,6 +186,21 @@ TEST(LooksTogether, TenVehiclesAreEnoughInOneLookOrInSeveral) {
         EXPECT_EQ(together.estimate()->vehicles, first + second);
         EXPECT_EQ(together.suffice(), first + second >= 10) << first << " and " << second;
     }
+}
+
+TEST(LooksTogether, OneThatTellsScalesApartCountsMoreThanOneThatDoesNot) {
+    // The first look says one thing clearly; in the second something else looks a little more like vehicles, of which
+    // there are many more.
+    std::vector<ScaleOutcome> clear(kScaleAssumptions);
+    clear[4] = {20, 20, 100, 4, 4};
+    std::vector<ScaleOutcome> blurred(kScaleAssumptions);
+    blurred[4] = {40, 20, 20, 30, 3};
+    blurred[7] = {60, 35, 40, 30, 20};
+    LooksTogether together;
+    together.add(clear);
+    together.add(blurred);
+    EXPECT_NEAR(together.estimate()->gsd_m_per_px, assumedGsd(4), 1e-3 * assumedGsd(4));
+    EXPECT_EQ(together.estimate()->vehicles, 7);
 }
 
 TEST(LooksTogether, TellWhatTheSumOfThemTells) {

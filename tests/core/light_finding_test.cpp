@@ -84,7 +84,7 @@ TEST(LightFinding, SaysWhyThereAreNone) {
     LightFinding beams = none(LightOutcome::beams, 12);
     beams.trimmed = 40;
     EXPECT_EQ(describe({beams}, kKnown),
-              "night: what the headlights of 12 vehicles light ahead of them was taken out of the boxes of 40 tracks");
+              "night: what the headlights of 12 vehicles light about them was taken out of the boxes of 40 tracks");
 }
 
 TEST(LightFinding, DirectionsHaveWordsForTheScreen) {

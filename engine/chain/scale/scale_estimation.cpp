@@ -16,6 +16,7 @@
 #include "chain/scale/view_estimation.h"
 #include "core/error.h"
 #include "detection/detector_factory.h"
+#include "imaging/picture_darkness.h"
 
 namespace eyrie {
 namespace {
@@ -70,6 +71,8 @@ std::vector<ScaleOutcome> outcomesOf(FrameSource& source, FrameIndex first, Fram
     look();
     for (auto& other : others) other.get();
     if (stop.stop_requested()) return {};
+    const double darkness = frames.empty() ? 0 : darknessOf(frames.front().gray);
+    for (ScaleOutcome& outcome : outcomes) outcome.in_dark = darkness * outcome.detections;
     return outcomes;
 }
 

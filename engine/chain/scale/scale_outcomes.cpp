@@ -23,6 +23,8 @@ constexpr std::pair kDrawn(0.1, 0.16);    ///< … and drawn to the scale that w
 constexpr double kDrawnBy = 0.36;         ///< share of the logarithm: the doubt against a spread of .6 among videos
 /// Of the logarithm, by which what is fully doubted seems larger than it is: lit or hazy ground counts as vehicle.
 constexpr double kLargerInDoubt = 0.2;
+/// The same at night, once more: headlights light a strip about each vehicle that is driven with it.
+constexpr double kLargerInDark = 0.3;
 constexpr double kFast = 0.75;        ///< share of the cars that are no faster …
 constexpr double kTownSpeed = 11;     ///< … than so many m/s
 constexpr double kSpeedError = 0.45;  ///< standard error of its logarithm: between a jam and a motorway
@@ -58,9 +60,14 @@ double ScaleOutcome::alike() const {
     return detections > 0 ? looks / detections : 0;
 }
 
+double ScaleOutcome::darkness() const {
+    return detections > 0 ? in_dark / detections : 0;
+}
+
 double ScaleOutcome::score() const {
-    const double car_sized = (cars + 1) / (tracks + 2);
-    return decision * alike() * alike() * car_sized * car_sized;
+    // Where it is too fine little else is detected, and every other window looks like a vehicle: the share of those
+    // counts less than what is as large as a car.
+    return decision * std::pow(alike(), 0.75) * std::pow((cars + 1) / (tracks + 2), 4);
 }
 
 bool ScaleOutcome::showsTraffic() const {
@@ -74,6 +81,7 @@ ScaleOutcome operator+(const ScaleOutcome& a, const ScaleOutcome& b) {
     both.decision += b.decision;
     both.tracks += b.tracks;
     both.cars += b.cars;
+    both.in_dark += b.in_dark;
     both.car_speeds_m_s.insert(both.car_speeds_m_s.end(), b.car_speeds_m_s.begin(), b.car_speeds_m_s.end());
     return both;
 }
@@ -83,18 +91,23 @@ bool isCarSized(double length_m, double width_m) {
 }
 
 std::optional<ScaleEstimate> estimateOfScale(const std::vector<ScaleOutcome>& outcomes) {
-    int best = 0;
-    for (int i = 0; i < kScaleAssumptions; ++i) {
-        const double score = outcomes[static_cast<std::size_t>(i)].score();
-        if (score > outcomes[static_cast<std::size_t>(best)].score()) best = i;
-    }
+    std::vector<double> scores;
+    scores.reserve(outcomes.size());
+    for (const ScaleOutcome& outcome : outcomes) scores.push_back(outcome.score());
+    return estimateOfScale(outcomes, scores);
+}
+
+std::optional<ScaleEstimate> estimateOfScale(const std::vector<ScaleOutcome>& outcomes,
+                                             const std::vector<double>& scores) {
+    const auto highest = std::max_element(scores.begin(), scores.end());
+    const auto best = static_cast<int>(highest - scores.begin());
     const ScaleOutcome& peak = outcomes[static_cast<std::size_t>(best)];
     if (!peak.showsTraffic()) return std::nullopt;
     double weights = 0;
     double sum = 0;
     double squares = 0;
     for (int i = std::max(0, best - kReach); i <= std::min(kScaleAssumptions - 1, best + kReach); ++i) {
-        const double share = outcomes[static_cast<std::size_t>(i)].score() / peak.score();
+        const double share = scores[static_cast<std::size_t>(i)] / *highest;
         const double weight = share * share;
         const double place = std::log(assumedGsd(i));
         weights += weight;
@@ -104,7 +117,7 @@ std::optional<ScaleEstimate> estimateOfScale(const std::vector<ScaleOutcome>& ou
     const double middle = sum / weights;
     const double spread = squares / weights - middle * middle + kStepVariance;
     const double doubt = partBelow(peak.alike(), kDoubted);
-    const double by_sizes = middle + doubt * kLargerInDoubt;
+    const double by_sizes = middle + doubt * kLargerInDoubt + peak.darkness() * kLargerInDark;
     const double drawn = kDrawnBy * partBelow(peak.alike(), kDrawn);
     const double own_error = kOwnError + doubt * (kErrorInDoubt - kOwnError);
     LogOfScale scale{by_sizes + drawn * (std::log(SceneScale().gsd_m_per_px) - by_sizes),
@@ -120,8 +133,11 @@ std::optional<ScaleEstimate> estimateOfScale(const std::vector<ScaleOutcome>& ou
 
 void LooksTogether::add(const std::vector<ScaleOutcome>& outcomes) {
     if (!estimateOfScale(outcomes)) return;
-    for (std::size_t i = 0; i < outcomes.size(); ++i) sums_[i] = sums_[i] + outcomes[i];
-    if (const auto estimate = estimateOfScale(sums_)) estimate_ = estimate;
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+        sums_[i] = sums_[i] + outcomes[i];
+        scores_[i] += outcomes[i].score();
+    }
+    if (const auto estimate = estimateOfScale(sums_, scores_)) estimate_ = estimate;
 }
 
 bool LooksTogether::suffice() const {

@@ -174,7 +174,7 @@ std::string describe(const std::vector<LightFinding>& findings, const SceneScale
         const LightFinding* none = longest(false);
         if (none == nullptr) return {};
         if (none->outcome != LightOutcome::beams) return whyNone(*none);
-        return "night: what the headlights of " + vehiclesText(none->vehicles) + " light ahead of them was " +
+        return "night: what the headlights of " + vehiclesText(none->vehicles) + " light about them was " +
                takenOut(*none);
     }
     std::string text = shadowsText(*shadows, scale);

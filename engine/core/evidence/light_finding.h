@@ -15,7 +15,7 @@ namespace eyrie {
 /// finished.
 enum class LightOutcome {
     shadows,        ///< the sun casts them
-    beams,          ///< it is night: headlights light the ground ahead of vehicles
+    beams,          ///< it is night: headlights light the ground about vehicles
     switched_off,   ///< nobody wanted to know (finishing.trim_shadows)
     no_scale,       ///< lengths in metres mean nothing
     no_classifier,  ///< without one no track is sure enough to be asked
@@ -61,8 +61,8 @@ struct FrameShadow {
 /// What was taken out of the boxes of a track.
 struct BoxTrim {
     LightOutcome what = LightOutcome::shadows;  ///< or beams
-    double along = 0;  ///< share of what shadows reach along its heading that was in its boxes; of beams: of the length
-    double across = 0;  ///< the same across it
+    double along = 0;   ///< share of what shadows reach along its heading that was in its boxes; of beams: of the length
+    double across = 0;  ///< the same across it; of beams: of the width
     double taken = 0;   ///< share of the boxes' area that was taken out, 0 … 1
 
     bool operator==(const BoxTrim&) const = default;

@@ -154,8 +154,8 @@ void FinishingOptions::describe(ParameterVisitor& v) {
     declare.flag("finishing.trim_shadows", trim_shadows,
                  {"",
                   "Take the shadow out of the boxes of sure tracks where the vehicles show which way shadows fall, and "
-                  "what their headlights light ahead of them where no shadows fall and a quarter of the tracks have "
-                  "them on. Needs a method with a classifier.",
+                  "what their headlights light about them where no shadows fall and a quarter of the tracks have "
+                  "them on, fewer in the dark. Needs a method with a classifier.",
                   ""});
     declare.flag("finishing.whole_lorries", whole_lorries,
                  {"",

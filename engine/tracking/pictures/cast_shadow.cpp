@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "core/robust_statistics.h"
 #include "tracking/pictures/shadow_share.h"
@@ -16,15 +17,17 @@ constexpr double kLargestResidual = 0.4;  ///< of the reach
 constexpr double kMainSide = 0.5;         ///< of the reach: a side that the shadow falls to
 constexpr double kWhollyInBoxes = 0.95;   ///< share from which on it is no shadow on the ground
 constexpr double kSaysSomething = 0.1;    ///< m
+constexpr double kLitOfBox = 0.6;         ///< share of the box's width: less is a roof or a window alone
 constexpr double kShrinkage = 0.03;       ///< towards no shadow, along axes on which no vehicle says anything
 constexpr double kLeastScatter = 0.05;    ///< m
 constexpr int kFitRounds = 10;
 
 /// What a look says of the shadow along one axis of its vehicle.
 struct ShadowSide {
-    cv::Point2d axis;   ///< unit vector in the first picture of the stretch
-    double reach = 0;   ///< m, signed along it
-    double weight = 1;  ///< every vehicle counts once
+    std::pair<TrackId, bool> of;  ///< track, and whether along it
+    cv::Point2d axis;             ///< unit vector in the first picture of the stretch
+    double reach = 0;             ///< m, signed along it
+    double weight = 1;            ///< every vehicle counts once
 };
 
 /// Weighted least squares, outliers counting less from round to round.
@@ -56,21 +59,32 @@ cv::Point2d fittedReach(const std::vector<ShadowSide>& sides) {
     return reach;
 }
 
-/// Of those sides on which a shadow of that reach shows, the share that say so, by weight.
+/// Of those sides of vehicles on which a shadow of that reach shows, the share that usually say so, by weight: a single
+/// look is right to within a pixel or two, which may be all of a short shadow.
 double agreementOf(const std::vector<ShadowSide>& sides, cv::Point2d reach) {
-    double shows = 0;
-    double agrees = 0;
+    struct Said {
+        std::vector<double> reaches;
+        double weight = 0;
+    };
+    std::map<std::pair<TrackId, bool>, Said> said;
     for (const ShadowSide& side : sides) {
         const double expected = side.axis.dot(reach);
         if (std::abs(expected) <= kMainSide * std::hypot(reach.x, reach.y)) continue;
-        shows += side.weight;
-        if (side.reach * expected > 0 && std::abs(side.reach) > kSaysSomething) agrees += side.weight;
+        said[side.of].reaches.push_back(std::copysign(1.0, expected) * side.reach);
+        said[side.of].weight += side.weight;
+    }
+    double shows = 0;
+    double agrees = 0;
+    for (const auto& [of, each] : said) {
+        shows += each.weight;
+        if (medianOf(each.reaches) > kSaysSomething) agrees += each.weight;
     }
     return shows > 0 ? agrees / shows : 0;
 }
 
 bool showsVehicle(const SilhouetteLook& look) {
-    return look.silhouette && look.silhouette->lit_vehicle;
+    return look.silhouette && look.silhouette->lit_vehicle &&
+           look.silhouette->lit->width() > kLitOfBox * look.box.width;
 }
 
 using LooksOfStretch = std::vector<const SilhouetteLook*>;
@@ -92,8 +106,11 @@ std::pair<std::vector<ShadowSide>, int> sidesOf(const LooksOfStretch& looks, con
         const double heading = look->box.heading - turn.angle;
         const cv::Point2d along(std::cos(heading), std::sin(heading));
         const double weight = 1.0 / looks_of[look->track];
-        sides.push_back({along, (whole.front - lit.front + whole.rear - lit.rear) / metre, weight});
-        sides.push_back({{-along.y, along.x}, (whole.right - lit.right + whole.left - lit.left) / metre, weight});
+        sides.push_back({{look->track, true}, along, (whole.front - lit.front + whole.rear - lit.rear) / metre, weight});
+        sides.push_back({{look->track, false},
+                         {-along.y, along.x},
+                         (whole.right - lit.right + whole.left - lit.left) / metre,
+                         weight});
     }
     return {sides, static_cast<int>(looks_of.size())};
 }

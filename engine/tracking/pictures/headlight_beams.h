@@ -9,7 +9,7 @@
 
 namespace eyrie {
 
-/// Whether so many tracks throw light ahead of them that it is dark.
+/// Whether so many tracks throw light ahead of them that it is dark: a quarter of them, the fewer the darker the pictures are.
 bool driveWithHeadlights(const std::vector<SilhouetteLook>& looks);
 
 /// What headlights were found to light.
@@ -19,7 +19,8 @@ struct BeamFinding {
 };
 
 /// Takes what headlights throw on the ground ahead of vehicles out of the front of their boxes, as much of it as looks
-/// show to be in each track's. Nothing where few tracks have lights, as by day.
+/// show to be in each track's, and, the darker it is, what they usually light ahead and on both sides besides. Nothing
+/// where few tracks have lights, as by day.
 BeamFinding takeOutBeams(std::vector<TrackPath>& paths, const std::vector<SilhouetteLook>& looks);
 
 }  // namespace eyrie

@@ -19,7 +19,8 @@ constexpr double kHoldsBox = 0.7;        ///< share of the box that belongs to t
 constexpr double kLonger = 1.4;          ///< than the box: less is not worth a change
 constexpr double kLongerThanCars = 5.5;  ///< m
 constexpr double kLongest = 18;          ///< m
-constexpr double kWidest = 4.2;          ///< m, of the silhouette, with the side that an oblique view shows
+constexpr double kWidest = 4.2;          ///< m, of the silhouette, with the side that an oblique view shows …
+constexpr double kBusSlender = 3;        ///< … or, of what is as high as a bus, wider if it is so many times as long
 constexpr double kLorryWidth = 2.6;      ///< m, as wide as lorries may be
 constexpr double kSlender = 2;           ///< times as long as wide
 constexpr double kCutLooks = 0.25;       ///< share of looks in which it goes on beyond what was looked at
@@ -93,7 +94,7 @@ std::optional<AboutBox> longVehicleIn(const LooksAtLength& looks) {
     const double length = front - rear;
     const double width = medianOf(looks.width);
     if (length <= kLonger * box_length || length <= kLongerThanCars || length >= kLongest) return {};
-    if (width >= kWidest || length <= kSlender * width) return {};
+    if (width >= std::max(kWidest, length / kBusSlender) || length <= kSlender * width) return {};
     const double box_width = medianOf(looks.box_width);
     const double whole_left = std::min(medianOf(looks.left), -box_width / 2);
     const double whole_right = std::max(medianOf(looks.right), box_width / 2);

@@ -7,6 +7,7 @@
 #include "core/geometry/homography_jacobian.h"
 #include "core/robust_statistics.h"
 #include "core/values/last_frame.h"
+#include "imaging/picture_darkness.h"
 #include "tracking/finishing/frames_of.h"
 #include "tracking/finishing/track_occupancy.h"
 
@@ -41,7 +42,7 @@ class SilhouetteSearch::Plan {
             for (const TimedPathState* state : momentsOf(path)) {
                 const OrientedBox box = state->second.box;
                 const double metre = scale_.at(box.centre).px(1);
-                Planned look{{path.id, state->first, box, 0, 0, {}, {}},
+                Planned look{{path.id, state->first, box, 0, 0, 0, {}, {}},
                              SilhouetteGrid(box, kMarginAbout * metre, std::max(0.5, kGridStep * metre)),
                              ExtentGrid(box, metre),
                              {}};
@@ -134,13 +135,14 @@ SilhouetteSearch::SilhouetteSearch(const std::vector<TrackPath>& paths, const Gr
 void SilhouetteSearch::show(FrameIndex frame, const cv::Mat& gray) {
     const auto wanting = wanting_.find(frame);
     if (wanting == wanting_.end()) return;
-    for (const std::size_t i : wanting->second) take(planned_[i], frame, gray, boxes_[frame]);
+    const double darkness = darknessOf(gray);
+    for (const std::size_t i : wanting->second) take(planned_[i], frame, gray, boxes_[frame], darkness);
     wanting_.erase(wanting);
     boxes_.erase(frame);
 }
 
 void SilhouetteSearch::take(Planned& planned, FrameIndex frame, const cv::Mat& gray,
-                            const std::vector<TrackBox>& boxes) {
+                            const std::vector<TrackBox>& boxes, double darkness) {
     const bool shows_vehicle = frame == planned.look.frame;
     std::vector<OrientedBox> others;
     for (const TrackBox& each : boxes) {
@@ -149,6 +151,7 @@ void SilhouetteSearch::take(Planned& planned, FrameIndex frame, const cv::Mat& g
         if (is_other || !shows_vehicle) others.emplace_back(each.box);
     }
     if (!gray.empty() && shows_vehicle) {
+        planned.look.darkness = darkness;
         planned.vehicle = planned.grid.sampled(gray);
         planned.vehicle_about = planned.extents.sampled(gray, cv::Matx33d::eye(), others, true);
     } else if (!gray.empty()) {

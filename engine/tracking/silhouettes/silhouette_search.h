@@ -21,6 +21,7 @@ struct SilhouetteLook {
     OrientedBox box;                       ///< of its state
     double shaded = 0;                     ///< share of the box in which it is as a shadow on the ground would be
     double beam = 0;                       ///< share of its length that is lit ground ahead of its lamps
+    double darkness = 0;                   ///< of the picture, see darknessOf
     std::optional<Silhouette> silhouette;  ///< of its vehicle, where one stands out by itself
     std::optional<VehicleExtent> extent;   ///< of its vehicle, of which the box may hold a part; not at night
 };
@@ -72,7 +73,8 @@ class SilhouetteSearch {
     };
     class Plan;
 
-    void take(Planned& planned, FrameIndex frame, const cv::Mat& gray, const std::vector<TrackBox>& boxes);
+    void take(Planned& planned, FrameIndex frame, const cv::Mat& gray, const std::vector<TrackBox>& boxes,
+              double darkness);
     void look(Planned& planned);
 
     std::vector<Planned> planned_;

@@ -24,23 +24,24 @@ double beamOf(const cv::Mat& picture) {
 }
 
 /// Looks at tracks 1, 2, …, two of each, that say so much of their beams.
-std::vector<SilhouetteLook> looksAt(const std::vector<double>& beams, int looks_each = 2) {
+std::vector<SilhouetteLook> looksAt(const std::vector<double>& beams, int looks_each = 2, double darkness = 0) {
     std::vector<SilhouetteLook> looks;
     for (std::size_t i = 0; i < beams.size(); ++i) {
         for (int k = 0; k < looks_each; ++k) {
             looks.emplace_back();
             looks.back().track = static_cast<TrackId>(i + 1);
             looks.back().beam = beams[i];
+            looks.back().darkness = darkness;
         }
     }
     return looks;
 }
 
-/// The box of track 1, 20 × 8 px at (100, 60), after beams were taken out.
-OrientedBox after(const std::vector<SilhouetteLook>& looks, double heading = 0) {
+/// The box of track 1, 20 × 11 px at (100, 60), after beams were taken out.
+OrientedBox after(const std::vector<SilhouetteLook>& looks, double heading = 0, double width = 11) {
     TrackState state;
     state.id = 1;
-    state.box = {{100, 60}, 20, 8, heading};
+    state.box = {{100, 60}, 20, width, heading};
     std::vector<TrackPath> paths{{1, {{0, PathState(state)}, {5, PathState(state)}}}};
     takeOutBeams(paths, looks);
     EXPECT_EQ(paths[0].states[0].second.box.length, paths[0].states[1].second.box.length);
@@ -80,7 +81,7 @@ TEST(HeadlightBeams, AreTakenOutOfTheFrontOfBoxes) {
     EXPECT_NEAR(box.length, 14, 1e-4) << "but for the lamps' own place";
     EXPECT_NEAR(box.centre.x, 97, 1e-4);
     EXPECT_NEAR(box.centre.y, 60, 1e-4);
-    EXPECT_NEAR(box.width, 8, 1e-4);
+    EXPECT_NEAR(box.width, 11, 1e-4);
     const OrientedBox down = after(looksAt({0.36, 0.2, 0.2}), 1.57079632679);
     EXPECT_NEAR(down.centre.x, 100, 1e-4);
     EXPECT_NEAR(down.centre.y, 57, 1e-4);
@@ -120,6 +121,60 @@ TEST(HeadlightBeams, NeedSomeTracksThatHaveThem) {
     EXPECT_NEAR(after(looksAt({0.36, 0.2, 0.2, 0, 0, 0, 0, 0, 0, 0, 0, 0})).length, 14, 1e-4) << "a quarter has them";
     EXPECT_NEAR(after(looksAt({0.36, 0.2, 0.2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0})).length, 20, 1e-4) << "as by day";
     EXPECT_NEAR(after(looksAt({0.36, 0.2, 0.2}, 1)).length, 20, 1e-4) << "one look is chance";
+}
+
+TEST(HeadlightBeams, TheDarkerItIsTheMoreOfABoxIsGroundThatTheyLight) {
+    const OrientedBox night = after(looksAt({0.36, 0.2, 0.2}, 2, 1));
+    EXPECT_NEAR(night.length, 20 * (1 - 0.3 - 0.12), 1e-4);
+    EXPECT_NEAR(night.width, 11 * 0.75, 1e-4);
+    EXPECT_NEAR(night.centre.x, 100 - 20 * 0.42 / 2, 1e-4) << "its rear stays";
+    EXPECT_NEAR(night.centre.y, 60, 1e-4) << "on both sides alike";
+    const OrientedBox dusk = after(looksAt({0.36, 0.2, 0.2}, 2, 0.5));
+    EXPECT_NEAR(dusk.length, 20 * (1 - 0.3 - 0.06), 1e-4);
+    EXPECT_NEAR(dusk.width, 11 * 0.875, 1e-4);
+    EXPECT_NEAR(after(looksAt({0.9, 0.2, 0.2}, 2, 1)).length, 10, 1e-4) << "half of it stays";
+    const OrientedBox lamps_off = after(looksAt({0, 0.2, 0.2}, 2, 1));
+    EXPECT_NEAR(lamps_off.length, 20 * 0.88, 1e-4) << "others light it";
+    EXPECT_NEAR(lamps_off.width, 11 * 0.75, 1e-4);
+}
+
+TEST(HeadlightBeams, ANarrowBoxHoldsAPartOfAVehicleAndStaysAsWide) {
+    const auto widthOf = [](double width) { return after(looksAt({0.36, 0.2, 0.2}, 2, 1), 0, width).width; };
+    EXPECT_NEAR(widthOf(10.4), 10.4 * 0.75, 1e-3);
+    EXPECT_NEAR(widthOf(9), 20 / 2.6, 1e-3) << "not slenderer than this";
+    EXPECT_NEAR(widthOf(7.6), 7.6, 1e-3);
+    EXPECT_NEAR(widthOf(5), 5, 1e-3);
+}
+
+TEST(HeadlightBeams, InTheDarkOneTrackThatHasThemSaysThatAllDo) {
+    EXPECT_TRUE(driveWithHeadlights(looksAt({0.36, 0, 0}, 2, 0.6)));
+    EXPECT_FALSE(driveWithHeadlights(looksAt({0.36, 0, 0}, 2, 0.5))) << "not in the half dark";
+    EXPECT_FALSE(driveWithHeadlights(looksAt({0, 0, 0}, 2, 1))) << "a dark picture without lamps, as of an infrared camera";
+    EXPECT_TRUE(driveWithHeadlights(looksAt({0.36, 0, 0, 0, 0, 0, 0, 0, 0, 0}, 2, 1))) << "a tenth has them";
+    EXPECT_FALSE(driveWithHeadlights(looksAt({0.36, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, 2, 1)));
+    EXPECT_FALSE(driveWithHeadlights({}));
+}
+
+TEST(HeadlightBeams, HowDarkItIsIsWhatMostPicturesSay) {
+    std::vector<SilhouetteLook> looks = looksAt({0.36, 0.2, 0.2}, 2, 0);
+    for (std::size_t i = 0; i < 2; ++i) looks[i].darkness = 1;
+    EXPECT_NEAR(after(looks).width, 11, 1e-4);
+}
+
+TEST(HeadlightBeams, InTheDarkEveryTrackIsToldOf) {
+    std::vector<TrackPath> paths;
+    for (const TrackId id : {1, 9}) {
+        TrackState state;
+        state.id = id;
+        state.box = {{100, 60}, 20, 11, 0};
+        paths.push_back({id, {{0, PathState(state)}}});
+    }
+    const BeamFinding found = takeOutBeams(paths, looksAt({0.36, 0.2, 0.2}, 2, 1));
+    ASSERT_EQ(found.trims.size(), 2U) << "one was not looked at";
+    EXPECT_NEAR(found.trims.at(1).along, 0.42, 1e-9);
+    EXPECT_NEAR(found.trims.at(1).across, 0.25, 1e-9);
+    EXPECT_NEAR(found.trims.at(1).taken, 1 - 0.58 * 0.75, 1e-9);
+    EXPECT_NEAR(found.trims.at(9).along, 0.12, 1e-9);
 }
 
 }  // namespace eyrie::headlight_beams_test

@@ -106,6 +106,8 @@ TEST(LongVehicles, OnlyWhatIsLongerThanACarAndNoStreetIsOne) {
     EXPECT_FALSE(Looks().add(6, -2, 16.1).changes());
     EXPECT_TRUE(Looks().add(6, -8, 2, 1, 2.05).changes());
     EXPECT_FALSE(Looks().add(6, -8, 2, 1, 2.15).changes()) << "4.3 m wide";
+    EXPECT_TRUE(Looks().add(6, -12, 2.4, 1, 2.35).changes()) << "a bus of 14.4 m, with the side that is seen of it";
+    EXPECT_FALSE(Looks().add(6, -12, 2.4, 1, 2.45).changes());
     EXPECT_TRUE(Looks().add(6, -4.6, 2, 1, 1.6).changes());
     EXPECT_FALSE(Looks().add(6, -4.2, 2, 1, 1.6).changes()) << "less than twice as long as wide";
     EXPECT_FALSE(Looks().add(6, -9, -1).changes()) << "it is another vehicle behind this one";
