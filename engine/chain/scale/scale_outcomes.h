@@ -36,8 +36,8 @@ struct ScaleOutcome {
     /// How dark the pictures were, 0 to 1.
     double darkness() const;
     /// Much that looks like vehicles and is as large as cars, and less that does not: where the assumption is too fine
-    /// cars do not fit the window, where it is too coarse they fall into pieces, and neither relief nor glare looks like
-    /// a car at any.
+    /// cars do not fit the window, where it is too coarse they fall into pieces, and neither relief nor glare looks
+    /// like a car at any.
     double score() const;
     /// Whether enough looks like vehicles, and one of them is as large as a car: less is chance.
     bool showsTraffic() const;
@@ -51,9 +51,9 @@ bool isCarSized(double length_m, double width_m);
 /// The middle of the scores around the best one, of one outcome for each assumption. On eight clips it lay between .83
 /// and 1.09 of the truth; rather too fine than too coarse, since a scale too coarse by a tenth costs more. Nothing
 /// where too little looks like vehicles. Where most of what is detected does not, it is less sure and a little coarser
-/// than sizes say, since they are those of vehicles with the ground they light or darken, in the dark once more, and where nearly
-/// nothing does, the scale that would be assumed without it has a say, too. The less sure it is, the more counts how
-/// fast three quarters of the cars drive at most, as in towns: headlights and haze change sizes, not speeds.
+/// than sizes say, since they are those of vehicles with the ground they light or darken, in the dark once more, and
+/// where nearly nothing does, the scale that would be assumed without it has a say, too. The less sure it is, the more
+/// counts how fast three quarters of the cars drive at most, as in towns: headlights and haze change sizes, not speeds.
 std::optional<ScaleEstimate> estimateOfScale(const std::vector<ScaleOutcome>& outcomes);
 /// The same by other scores than those of the outcomes themselves, one for each.
 std::optional<ScaleEstimate> estimateOfScale(const std::vector<ScaleOutcome>& outcomes,

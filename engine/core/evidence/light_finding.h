@@ -61,7 +61,7 @@ struct FrameShadow {
 /// What was taken out of the boxes of a track.
 struct BoxTrim {
     LightOutcome what = LightOutcome::shadows;  ///< or beams
-    double along = 0;   ///< share of what shadows reach along its heading that was in its boxes; of beams: of the length
+    double along = 0;  ///< share of what shadows reach along its heading that was in its boxes; of beams: of the length
     double across = 0;  ///< the same across it; of beams: of the width
     double taken = 0;   ///< share of the boxes' area that was taken out, 0 … 1
 

@@ -106,7 +106,8 @@ std::pair<std::vector<ShadowSide>, int> sidesOf(const LooksOfStretch& looks, con
         const double heading = look->box.heading - turn.angle;
         const cv::Point2d along(std::cos(heading), std::sin(heading));
         const double weight = 1.0 / looks_of[look->track];
-        sides.push_back({{look->track, true}, along, (whole.front - lit.front + whole.rear - lit.rear) / metre, weight});
+        sides.push_back(
+            {{look->track, true}, along, (whole.front - lit.front + whole.rear - lit.rear) / metre, weight});
         sides.push_back({{look->track, false},
                          {-along.y, along.x},
                          (whole.right - lit.right + whole.left - lit.left) / metre,

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kFewestLookedAt = 2;  ///< times a track is
 constexpr double kClearBeam = 0.1;          ///< share of the length
 constexpr int kFewestLit = 3;               ///< tracks that have a beam …
-constexpr double kLeastLit = 0.25;     ///< … and least share of those that were looked at, since by day few look so …
+constexpr double kLeastLit = 0.25;  ///< … and least share of those that were looked at, since by day few look so …
 constexpr double kFewerInDark = 0.15;  ///< … but less by so much where it is fully dark …
 constexpr double kSurelyDark = 0.5;    ///< … and a single one is enough in more than half of that
 constexpr double kLampsWithin = 0.06;  ///< share of the length by which lamps lie behind the front
@@ -74,7 +74,8 @@ BeamFinding takeOutBeams(std::vector<TrackPath>& paths, const std::vector<Silhou
         for (auto& [frame, state] : path.states) {
             const OrientedBox box = state.box;
             const double out = ahead * box.length;
-            state.box = OrientedBox{box.toImage({-out / 2, 0}), box.length - out, (1 - beside) * box.width, box.heading};
+            state.box =
+                OrientedBox{box.toImage({-out / 2, 0}), box.length - out, (1 - beside) * box.width, box.heading};
         }
     }
     return finding;

@@ -9,7 +9,8 @@
 
 namespace eyrie {
 
-/// Whether so many tracks throw light ahead of them that it is dark: a quarter of them, the fewer the darker the pictures are.
+/// Whether so many tracks throw light ahead of them that it is dark: a quarter of them, the fewer the darker the
+/// pictures are.
 bool driveWithHeadlights(const std::vector<SilhouetteLook>& looks);
 
 /// What headlights were found to light.

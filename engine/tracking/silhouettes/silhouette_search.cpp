@@ -141,8 +141,8 @@ void SilhouetteSearch::show(FrameIndex frame, const cv::Mat& gray) {
     boxes_.erase(frame);
 }
 
-void SilhouetteSearch::take(Planned& planned, FrameIndex frame, const cv::Mat& gray,
-                            const std::vector<TrackBox>& boxes, double darkness) {
+void SilhouetteSearch::take(Planned& planned, FrameIndex frame, const cv::Mat& gray, const std::vector<TrackBox>& boxes,
+                            double darkness) {
     const bool shows_vehicle = frame == planned.look.frame;
     std::vector<OrientedBox> others;
     for (const TrackBox& each : boxes) {

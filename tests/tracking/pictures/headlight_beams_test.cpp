@@ -149,7 +149,8 @@ TEST(HeadlightBeams, ANarrowBoxHoldsAPartOfAVehicleAndStaysAsWide) {
 TEST(HeadlightBeams, InTheDarkOneTrackThatHasThemSaysThatAllDo) {
     EXPECT_TRUE(driveWithHeadlights(looksAt({0.36, 0, 0}, 2, 0.6)));
     EXPECT_FALSE(driveWithHeadlights(looksAt({0.36, 0, 0}, 2, 0.5))) << "not in the half dark";
-    EXPECT_FALSE(driveWithHeadlights(looksAt({0, 0, 0}, 2, 1))) << "a dark picture without lamps, as of an infrared camera";
+    EXPECT_FALSE(driveWithHeadlights(looksAt({0, 0, 0}, 2, 1)))
+        << "a dark picture without lamps, as of an infrared camera";
     EXPECT_TRUE(driveWithHeadlights(looksAt({0.36, 0, 0, 0, 0, 0, 0, 0, 0, 0}, 2, 1))) << "a tenth has them";
     EXPECT_FALSE(driveWithHeadlights(looksAt({0.36, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, 2, 1)));
     EXPECT_FALSE(driveWithHeadlights({}));
