@@ -10,8 +10,12 @@
 namespace eyrie {
 namespace {
 
-constexpr double kFinest = 0.04;    ///< m/px, first assumption
-constexpr double kStep = 1.4;       ///< from one assumption to the next
+constexpr double kFinest = 0.04;  ///< m/px, first assumption
+constexpr double kStep = 1.4;     ///< from one assumption to the next
+/// Powers of the shares in the score. Where the assumption is too fine little else is detected, and every other window
+/// looks like a vehicle: so that counts less than what is as large as a car.
+constexpr double kAlikePower = 0.75;
+constexpr double kCarsPower = 4;
 constexpr double kFewestLooks = 8;  ///< sure windows under the best assumption; fewer are chance
 constexpr int kReach = 2;           ///< assumptions on both sides of the best one that have a say
 constexpr double kOwnError = 0.11;  ///< standard error of the logarithm where very many vehicles drive
@@ -65,9 +69,7 @@ double ScaleOutcome::darkness() const {
 }
 
 double ScaleOutcome::score() const {
-    // Where it is too fine little else is detected, and every other window looks like a vehicle: the share of those
-    // counts less than what is as large as a car.
-    return decision * std::pow(alike(), 0.75) * std::pow((cars + 1) / (tracks + 2), 4);
+    return decision * std::pow(alike(), kAlikePower) * std::pow((cars + 1) / (tracks + 2), kCarsPower);
 }
 
 bool ScaleOutcome::showsTraffic() const {

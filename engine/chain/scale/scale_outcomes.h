@@ -49,7 +49,7 @@ ScaleOutcome operator+(const ScaleOutcome& a, const ScaleOutcome& b);
 bool isCarSized(double length_m, double width_m);
 
 /// The middle of the scores around the best one, of one outcome for each assumption. On eight clips it lay between .83
-/// and 1.09 of the truth; rather too fine than too coarse, since a scale too coarse by a tenth costs more. Nothing
+/// and 1.21 of the truth; rather too fine than too coarse, since a scale too coarse by a tenth costs more. Nothing
 /// where too little looks like vehicles. Where most of what is detected does not, it is less sure and a little coarser
 /// than sizes say, since they are those of vehicles with the ground they light or darken, in the dark once more, and
 /// where nearly nothing does, the scale that would be assumed without it has a say, too. The less sure it is, the more
