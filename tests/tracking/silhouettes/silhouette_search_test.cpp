@@ -20,6 +20,7 @@ struct PlainRoad {
     std::vector<TrackPath> paths;
     std::set<FrameIndex> cut;         ///< frames that are not registered
     std::set<FrameIndex> unreadable;  ///< …
+    std::set<FrameIndex> dusky;       ///< in which the road is darker
     std::vector<FrameIndex> asked;
 
     /// A car in some frames; `x`, `y`: the pixel of its rear left corner.
@@ -38,7 +39,7 @@ struct PlainRoad {
     cv::Mat pictureOf(FrameIndex frame) {
         asked.push_back(frame);
         if (unreadable.contains(frame)) return {};
-        cv::Mat picture(200, 640, CV_8UC1, cv::Scalar(150));
+        cv::Mat picture(200, 640, CV_8UC1, cv::Scalar(dusky.contains(frame) ? 46 : 150));
         for (const TrackPath& path : paths) {
             const TimedPathState* state = path.at(frame);
             if (state == nullptr) continue;
@@ -105,6 +106,16 @@ TEST(SilhouetteSearch, LooksADozenTimesSpreadOverTheLifeOfATrack) {
     for (auto frame = std::next(frames.begin()); frame != frames.end(); ++frame)
         EXPECT_NEAR(*frame - *std::prev(frame), 120.0 / 11, 3);
     for (const FrameIndex frame : road.asked) EXPECT_EQ(frame % 3, 0) << "so that few pictures are read";
+}
+
+TEST(SilhouetteSearch, TellsHowDarkThePictureOfTheVehicleIs) {
+    PlainRoad road;
+    road.add(7, {30, 33, 36}, [](FrameIndex frame) { return cv::Point(40 + 10 * (frame - 30), 90); });
+    road.dusky = {33, 39};  // a vehicle's, and one that shows the bare ground alone
+    const auto looks = road.looks();
+    ASSERT_EQ(looks.size(), 3U);
+    for (const SilhouetteLook& look : looks)
+        EXPECT_NEAR(look.darkness, look.frame == 33 ? 0.4 : 0, 1e-12) << look.frame;
 }
 
 TEST(SilhouetteSearch, ComparesWithTheNearestTwoPicturesBeforeAndAfter) {
