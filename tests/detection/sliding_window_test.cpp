@@ -101,6 +101,17 @@ TEST(SlidingWindowOptions, ScalesOfDefaultsAndThesis) {
         thesis.middle_scale = outside;
         EXPECT_NEAR(thesis.scales()[1], std::sqrt(0.85 * 3.8), 1e-9) << outside;
     }
+    // However near it lies to an end, it is among them, and so are both ends.
+    for (const WindowRescaling rescaling : {WindowRescaling::length_3, WindowRescaling::length_11})
+        for (const double near : {0.851, 3.79}) {
+            thesis.rescaling = rescaling;
+            thesis.middle_scale = near;
+            const std::vector<double> scales = thesis.scales();
+            ASSERT_EQ(scales.size(), rescaling == WindowRescaling::length_3 ? 3U : 11U);
+            EXPECT_EQ(scales.at(near < 1 ? 1 : scales.size() - 2), near);
+            EXPECT_DOUBLE_EQ(scales.front(), 0.85);
+            EXPECT_DOUBLE_EQ(scales.back(), 3.8);
+        }
 }
 
 TEST(ScanAtScale, WithoutRejectionEveryWindowIsLookedAtToTheEnd) {
