@@ -5,6 +5,9 @@
 #include <cmath>
 
 #include "core/geometry/angle.h"
+#include "store/review/review_samples.h"
+#include "store/review/review_store.h"
+#include "store/review/seen_store.h"
 #include "store/runs/run_store.h"
 #include "store/samples.h"
 #include "support/temporary_folder.h"
@@ -189,6 +192,74 @@ TEST_F(ProjectViews, TellOfTracksTheirMeansAndWhatSpeaksForThem) {
         {"decision", evidence.decision},     {"score", evidence.score}};
     for (const auto& [column, value] : told) EXPECT_EQ(number(row, column), value) << column;
     EXPECT_FALSE(row.executeStep());
+}
+
+TEST_F(ProjectViews, TellWhatPeopleSaidOfAVideo) {
+    {
+        ProjectFile project = ProjectFile::open(path_);
+        ReviewStore review(project, 1);
+        for (const ReviewEdit& edit :
+             {test::sampleJudging(1), test::sampleBookmarking(2), test::sampleZoning(3), test::sampleCorrecting(1)})
+            review.apply(edit);
+        addSeen(project, 1, "Ada", {{10, 14}, {20, 20}});
+    }
+    const auto expectRow = [&](SQLite::Statement& row, const std::vector<std::pair<const char*, std::string>>& told) {
+        ASSERT_TRUE(row.executeStep());
+        EXPECT_EQ(row.getColumnCount(), static_cast<int>(told.size()));
+        for (const auto& [column, value] : told) EXPECT_EQ(text(row, column), value) << column;
+    };
+    const std::string video = "/videos/street.mp4";
+    SQLite::Statement verdict = rows("v_verdicts");
+    expectRow(verdict, {{"verdict", "1"},
+                        {"video", video},
+                        {"kind", "leaves"},
+                        {"judgement", "not relevant"},
+                        {"first_frame", "101"},
+                        {"last_frame", "151"},
+                        {"start_s", "4.04"},
+                        {"end_s", "6.04"},
+                        {"frame", "121"},
+                        {"x", "321.25"},
+                        {"y", "110.5"},
+                        {"zone", "yard \"ost\""},
+                        {"sense", "to the left"},
+                        {"note", "wendet, fährt zurück"},
+                        {"tags", "lorry, gate 3"},
+                        {"starred", "1"},
+                        {"person", "Ada"},
+                        {"when_utc", "2026-11-21T08:00:00Z"}});
+    SQLite::Statement bookmark = rows("v_bookmarks");
+    expectRow(bookmark, {{"bookmark", "2"},
+                         {"video", video},
+                         {"frame", "52"},
+                         {"seconds", "2.08"},
+                         {"x", "20.5"},
+                         {"y", "32.25"},
+                         {"note", "look here"},
+                         {"person", "Bo"},
+                         {"when_utc", "2026-11-21T09:00:00Z"}});
+    SQLite::Statement zone = rows("v_zones");
+    expectRow(zone, {{"zone", "3"},
+                     {"video", video},
+                     {"name", "yard 3"},
+                     {"shape", "line"},
+                     {"anchor", "ground"},
+                     {"frame", "6"},
+                     {"shown", "0"},
+                     {"person", "Ada"},
+                     {"when_utc", "2026-11-21T10:00:00Z"}});
+    SQLite::Statement correction = rows("v_corrections");
+    expectRow(correction, {{"correction", "1"},
+                           {"video", video},
+                           {"kind", "join"},
+                           {"frame", "13"},
+                           {"person", "Bo"},
+                           {"when_utc", "2026-11-21T11:00:00Z"}});
+    SQLite::Statement seen = rows("v_seen ORDER BY first_frame");
+    expectRow(seen,
+              {{"video", video}, {"person", "Ada"}, {"first_frame", "10"}, {"last_frame", "14"}, {"frames", "5"}});
+    expectRow(seen,
+              {{"video", video}, {"person", "Ada"}, {"first_frame", "20"}, {"last_frame", "20"}, {"frames", "1"}});
 }
 
 }  // namespace eyrie::project_views_test
