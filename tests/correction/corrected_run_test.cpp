@@ -265,6 +265,18 @@ TEST_F(CorrectedRun, TheTrackBesideARejectedOneIsThatOfTheResultThatLiesBestOnIt
     EXPECT_LE(rejection.other.back().frame, 40);
 }
 
+TEST_F(CorrectedRun, WhatIsAtThePlaceAFrameEarlierIsNotBeside) {
+    // Both go 30 px a frame, three times their length; one is where the other will be a frame later.
+    const auto twin = drivenStates(1, 10, 40, 0, 20, 30), ahead = drivenStates(2, 9, 39, 30, 20, 30);
+    ASSERT_EQ(ahead.front().state.box.centre, twin.front().state.box.centre);
+    const RunRecord run = test::writeRun(path_, kFrames, [&](int frame, FrameResult& result) {
+        for (const auto& states : {twin, ahead})
+            for (const TrackFrame& each : states)
+                if (each.frame == frame) result.tracks.push_back(each.state);
+    });
+    EXPECT_TRUE(trackBeside(RunStore(*project_), run.id, rejectionOf(twin), {1}, {}).empty());
+}
+
 TEST_F(CorrectedRun, ANewRunOfTheVideoCarriesThemOver) {
     correct(joinOf(early_, late_));
     correct(additionOf(drivenSightings(5, 58, 10, 20), 30));

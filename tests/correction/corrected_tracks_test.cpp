@@ -72,6 +72,13 @@ TEST(CorrectedTracks, AJoinOverAGapIsOneTrackThatGoesStraightOnTheGroundMeanwhil
     }
 }
 
+TEST(CorrectedTracks, TheSurerPartTellsWhicheverComesFirst) {
+    auto early = drivenStates(3, 0, 20, 10), late = drivenStates(7, 31, 50, 10);
+    for (TrackFrame& each : early) each.state.score = 0.9;
+    const CorrectedTracks result = corrected(runOf({{3, early}, {7, late}}), {joinOf(early, late)});
+    for (const TrackFrame& each : result.track(3)->states) EXPECT_EQ(each.state.score, 0.9) << each.frame;
+}
+
 TEST(CorrectedTracks, InAGapTheBoxGrowsAndTurnsEvenly) {
     auto early = drivenStates(3, 0, 20, 10), late = drivenStates(7, 31, 50, 10);
     for (TrackFrame& each : early) each.state.box.heading = 3.1;
