@@ -232,6 +232,22 @@ TEST(CarryOver, ReachesAsFarAsItsLimitsOnTheGroundAndInThePicture) {
     EXPECT_EQ(carried("review.carry_distance", "50"), 0) << "nothing tells of the ground between them";
 }
 
+TEST(CarryOver, WhatEndedBeforeDoesNotHideWhatBeginsLater) {
+    // One event lasts all the time, elsewhere; one ended long before the verdict's, at the same place.
+    test::DrivenTracks driven;
+    const StoredTracks run = runOf(driven);
+    std::vector<Event> events(3);
+    const FrameSpan spans[] = {{0, 900}, {100, 110}, {500, 520}};
+    for (std::size_t i = 0; i < 3; ++i) {
+        events[i].kind = EventKind::stops;
+        events[i].first_frame = events[i].frame = spans[i].first;
+        events[i].last_frame = spans[i].last;
+        events[i].place = i == 0 ? cv::Point2d(900, 100) : cv::Point2d(200, 300);
+    }
+    const auto verdicts = verdictsOn({events[2]}, run);
+    EXPECT_THAT(carryOver(verdicts, events, {}, run).of_event, testing::ElementsAre(0, 0, 1));
+}
+
 TEST(CarryOver, StretchesThatCouldNotBeSearchedKeepTheirVerdicts) {
     test::DrivenTracks driven;
     StoredTracks run = runOf(driven);

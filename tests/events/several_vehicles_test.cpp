@@ -133,6 +133,26 @@ TEST(Convoys, LastAsLongAsTheLastSeenPassesWhereTheOneBeforeWas) {
     EXPECT_NEAR(scene.placeOf(events[0]).x, 32 + 273 / 4.5, 1e-6) << "one that follows is shown";
 }
 
+TEST(Convoys, LastFromTheFirstWhoFollowsHoweverLateOthersAreFound) {
+    // 18 m apart at 20 km/h; one of the three is found eight seconds after the others.
+    for (const int late : {0, 2}) {
+        DrivenTracks scene;
+        scene.noise_px = 0;
+        for (int i = 0; i < 3; ++i) {
+            const double seconds = i == late ? 8 : 0;
+            scene.drive({50.0 - 18 * i + seconds * 20 / 3.6, 40}, 0, {{25 - seconds, 20, 20}},
+                        static_cast<int>(seconds * 25));
+        }
+        EventOptions options;
+        options.convoy_time_s = 8;
+        const auto events = scene.events(EventKind::convoy, options);
+        ASSERT_EQ(events.size(), 1U) << late;
+        EXPECT_THAT(events[0].tracks, ElementsAre(1, 2, 3));
+        EXPECT_EQ(events[0].first_frame, 0) << late;
+        EXPECT_GT(events[0].last_frame, 500) << late;
+    }
+}
+
 TEST(Convoys, TwoOnTwoRoadsAtATimeAreTwo) {
     DrivenTracks scene;
     scene.noise_px = 0;
