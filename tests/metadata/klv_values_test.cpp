@@ -312,6 +312,8 @@ TEST(KlvSetsByHand, TheStreamWithMostPlacesIsTheMostUsefulThenTheLongest) {
     EXPECT_EQ(recording.mostUseful(), 2);
     recording.streams.push_back(collected({place(), place()}));
     EXPECT_EQ(recording.mostUseful(), 3);
+    recording.streams.push_back(recording.streams[3]);
+    EXPECT_EQ(recording.mostUseful(), 3) << "the first of two that are alike";
     recording.streams = {MetadataStream()};
     EXPECT_EQ(recording.mostUseful(), -1) << "no set could be read";
 }
