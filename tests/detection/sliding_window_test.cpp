@@ -205,6 +205,24 @@ TEST(ScanAtScale, WhatIsShrunkInOneDirectionIsAveraged) {
     EXPECT_EQ(cv::norm(of_area, of_shrunk, cv::NORM_INF), 0);
 }
 
+TEST(ScanAtScale, WhatIsShrunkAcrossAloneIsAveragedToo) {
+    // Along nothing is scaled, across two pixels become one.
+    SlidingWindowOptions options = drivenSceneWindow();
+    options.car_length_m = 21.5 * kContractScale.gsd_m_per_px;
+    options.car_width_m = 20 * kContractScale.gsd_m_per_px;
+    options.rejection_margin = SlidingWindowOptions::kNoRejection;
+    const WindowScanner scanner(loadModel(test::drivenSceneModel()));
+    const cv::Mat area = roiOf(drivenScene(0.5)).image.colRange(0, 40);
+    ASSERT_EQ(rescaledSize(area.size(), 1, options, kContractScale, scanner.model().fit), cv::Size(20, area.rows));
+    cv::Mat shrunk, of_area, of_shrunk;
+    cv::resize(area, shrunk, {20, area.rows}, 0, 0, cv::INTER_AREA);
+    scanAtScale(scanner, area, 1, options, kContractScale, of_area);
+    scanner.scan(shrunk, WindowScanner::kNothingRejected, of_shrunk);
+    ASSERT_FALSE(of_shrunk.empty());
+    ASSERT_EQ(of_area.size(), of_shrunk.size());
+    EXPECT_EQ(cv::norm(of_area, of_shrunk, cv::NORM_INF), 0);
+}
+
 TEST(SlidingWindow, ScoresAreDecisionValuesAndTheThresholdHolds) {
     SlidingWindowOptions options = drivenSceneWindow();
     const MotionRoi roi = roiOf(drivenScene(0.5));

@@ -210,6 +210,23 @@ TEST(GroundStretches, ClimbingMakesANewGroundWithTheScaleOfItsFirstFrame) {
     EXPECT_EQ(ground.of(151), nullptr);
 }
 
+TEST(GroundStretches, TheScaleOfANewGroundIsThatOfTheMiddleOfThePicture) {
+    // Each frame the ground is a little smaller, and more so at the bottom: a point at (0, y) goes to y / (1.01 + 1e-6
+    // y).
+    Footage footage = standingCamera();
+    std::vector<Homography> steps;
+    for (int frame = 0; frame < 1000; ++frame)
+        steps.push_back({cv::Matx33d(1, 0, 0, 0, 1, 0, 0, 1e-6, 1.01), frame, frame + 1});
+    footage.camera = CameraMotion(steps);
+    footage.last_frame = 150;
+    const GroundStretches ground(footage);
+    ASSERT_THAT(ground.all(), SizeIs(2));
+    const FrameIndex last = ground.all()[0].last_frame;
+    EXPECT_NEAR(ground.all()[1].metres_per_px, ground.metresPerPixel(last, {499.5, 299.5}), 1e-9);
+    EXPECT_GT(std::abs(ground.metresPerPixel(last, {499.5, 499.5}) - ground.metresPerPixel(last, {499.5, 299.5})),
+              1e-4);
+}
+
 TEST(GroundStretches, ThePictureReachesHalfAPixelBeyondItsCentres) {
     const Footage footage = standingCamera();
     const GroundStretches ground(footage);

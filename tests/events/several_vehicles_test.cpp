@@ -153,6 +153,29 @@ TEST(Convoys, LastFromTheFirstWhoFollowsHoweverLateOthersAreFound) {
     }
 }
 
+TEST(Convoys, WhoDoesNotFollowForThreeSecondsBeginsAnew) {
+    // The last of three goes 6 m beside the others meanwhile, and comes back; 12 s before that and 9 s after it.
+    const auto convoysOf = [](double beside_s, double least_s) {
+        DrivenTracks scene;
+        scene.noise_px = 0;
+        for (int i = 0; i < 3; ++i) {
+            std::vector<std::pair<cv::Point2d, double>> poses;
+            for (int frame = 0; frame < 25 * 26; ++frame) {
+                const double seconds = frame / 25.0;
+                const bool beside = i == 2 && seconds > 13 && seconds < 13 + beside_s;
+                poses.push_back({{50.0 - 18 * i + seconds * 20 / 3.6, beside ? 46.0 : 40.0}, 0});
+            }
+            scene.follow(poses);
+        }
+        EventOptions options;
+        options.convoy_time_s = least_s;
+        return scene.events(EventKind::convoy, options).size();
+    };
+    EXPECT_EQ(convoysOf(0, 15), 1U);
+    EXPECT_EQ(convoysOf(4, 15), 0U);
+    EXPECT_GE(convoysOf(4, 7), 1U);
+}
+
 TEST(Convoys, TwoOnTwoRoadsAtATimeAreTwo) {
     DrivenTracks scene;
     scene.noise_px = 0;

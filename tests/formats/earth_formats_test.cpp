@@ -216,6 +216,21 @@ TEST_F(EarthFormats, AreRefusedWithTheReasonWhereNoPlaceOrTimeIsKnown) {
                 AllOf(HasSubstr("when the video was taken"), HasSubstr("--start")));
 }
 
+TEST_F(EarthFormats, BoxesWithoutANumberGetOneWhereTracksAreWritten) {
+    LabelFile labels = tracks(worldOf());
+    labels.boxes[5][0].id.reset();
+    for (const char* format : {"geojson", "kml", "stanag4676"})
+        EXPECT_EQ(write(labels, format).lost(LossKind::id), 1) << format;
+    EXPECT_EQ(write(labels, "tracks-csv").lost(LossKind::id), 0) << "a row needs none";
+    write(labels, "kml");
+    pugi::xml_document document;
+    ASSERT_TRUE(document.load_file(file_.c_str()));
+    std::set<std::string> names;
+    for (const pugi::xml_node mark : document.child("kml").child("Document").children("Placemark"))
+        names.insert(mark.child_value("name"));
+    EXPECT_THAT(names, testing::ElementsAre("12", "13", "3", "7")) << "the next free number";
+}
+
 TEST_F(EarthFormats, WithoutTracksTheFilesAreEmptyButWhole) {
     LabelFile none;
     none.world = worldOf();

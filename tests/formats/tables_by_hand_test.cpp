@@ -346,6 +346,18 @@ TEST_F(TablesByHand, YoloIsKnownByAClassAndSharesOfThePicture) {
     EXPECT_TRUE(isYolo(corners + " 99\n"));
 }
 
+TEST_F(TablesByHand, ViratIsKnownByEightNumbersAndItsTypes) {
+    const auto isVirat = [&](const std::string& text) {
+        std::string found;
+        messageOf([&] { found = sniffLabelFormat(writeText(folder_ / "s.txt", text)); });
+        return found == "virat";
+    };
+    for (int type = 0; type <= 5; ++type) EXPECT_TRUE(isVirat("0 1 7 10 20 30 40 " + std::to_string(type) + "\n"));
+    for (const char* other : {"0 1 7 10 20 30 40 -1\n", "0 1 7 10 20 30 40 6\n", "0 1 7 10 20 30 40\n",
+                              "0 1 7 10 20 30 40 1 1\n", "0 1 7 10 20 30 40 1 x\n"})
+        EXPECT_FALSE(isVirat(other)) << other;
+}
+
 TEST_F(TablesByHand, ColumnsMayBePartedByManyBlanks) {
     ImportOptions options;
     options.columns = "frame  id   x1 y1  w h";
