@@ -95,6 +95,16 @@ TEST(Flow, WhoTurnsOffToWhereNobodyDrivesLeavesIt) {
     EXPECT_GT(events[0].figure, 30);
 }
 
+TEST(Flow, WhoTurnsOffIsFoundInVideoOfAFrameASecondToo) {
+    DrivenTracks scene;
+    scene.noise_px = 0;
+    scene.scale.frame_rate_hz = 1;
+    scene.frames = 60;
+    for (int i = 0; i < 8; ++i) scene.drive({-10, 50}, 0, {{40, 18, 18}}, i);
+    const TrackId leaving = scene.drive({-10, 50}, 0, {{16, 18, 18}, {4, 18, 18, 22.5}, {8, 18, 18}}, 10);
+    EXPECT_THAT(tracksOf(scene.events(EventKind::leaves_flow)), ElementsAre(leaving));
+}
+
 TEST(Flow, WhoDrivesOnWhereOthersWereLostDoesNotLeaveIt) {
     DrivenTracks scene;
     for (int i = 0; i < 10; ++i) {
