@@ -142,6 +142,20 @@ TEST(ControlFit, AWrongPointIsNamedWhereOneStandsOut) {
     EXPECT_EQ(remarkOn(good[0]), "");
 }
 
+TEST(ControlFit, AWrongPointStandsOutAmongOthersThatAreHalfAMetreOff) {
+    std::vector<ControlPoint> points;
+    const cv::Point2d places[] = {{10, 10}, {190, 12}, {185, 95}, {8, 90}, {100, 50}, {60, 20}, {140, 80}, {50, 70}};
+    for (std::size_t i = 0; i < std::size(places); ++i) {
+        const double off = i % 2 == 0 ? 0.5 : -0.5;
+        points.push_back(control(0, places[i], places[i], {off, i % 3 == 0 ? off : -off}));
+    }
+    points[4] = control(0, places[4], places[4], {25, -15});
+    const auto fits = fitControlPoints(points, {}, LocalPlane(kMarket));
+    ASSERT_EQ(fits.size(), 1U);
+    EXPECT_TRUE(fits[0].doubtful);
+    EXPECT_EQ(fits[0].suspect, 4U);
+}
+
 TEST(ControlFit, AMirrorImageIsNoPicture) {
     std::vector<ControlPoint> points = corners();
     for (ControlPoint& point : points) {

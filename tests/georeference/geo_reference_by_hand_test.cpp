@@ -208,6 +208,26 @@ TEST(GeoReferenceByHand, TheDiagonalIsThatFromTheFirstPixelToTheLast) {
     EXPECT_GT(good, 10);
 }
 
+TEST(GeoReferenceByHand, MetadataAndRegistrationAreComparedInTheMiddleOfThePicture) {
+    // By the metadata the camera flies on; by the registration it turns by a degree a frame about its middle besides.
+    GeoFootage turning = footage();
+    std::vector<Homography> steps;
+    const double c = std::cos(CV_PI / 180), s = std::sin(CV_PI / 180);
+    const cv::Point2d middle((kPicture.width - 1) / 2.0, (kPicture.height - 1) / 2.0);
+    for (int frame = 1; frame < kFilmed; ++frame) {
+        Homography step;
+        step.from_frame = frame - 1;
+        step.to_frame = frame;
+        step.matrix = {c, -s, middle.x - c * middle.x + s * middle.y, s, c, middle.y - s * middle.x - c * middle.y, 0,
+                       0, 1};
+        steps.push_back(step);
+    }
+    turning.camera = CameraMotion(steps);
+    std::vector<Stated> still;
+    for (int frame = 0; frame < kFilmed; frame += 5) still.push_back({frame, {-kPixel_m * frame, 0}});
+    EXPECT_NEAR(referenceBy(still, turning).disagreement_m().value_or(1e9), 0, 0.02);
+}
+
 TEST(GeoReferenceByHand, AStatementTwoHundredKilometresAwayIsNoneOfThisVideo) {
     // The first one says where the video is, and is outnumbered by what is stated later.
     const auto errorWith = [](double astray_m) {
