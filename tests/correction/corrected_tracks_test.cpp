@@ -123,8 +123,10 @@ TEST(CorrectedTracks, AGapThatTheCameraDoesNotBridgeOrThatIsLongStaysOne) {
     TracksToCorrect slow = runOf({{3, early}, {7, late}});
     slow.frame_rate_hz = 1;  // ten frames are ten seconds
     EXPECT_EQ(corrected(slow, {joinOf(early, late)}).track(3)->states.size(), 51U);
-    slow.frame_rate_hz = 0.9;
-    EXPECT_EQ(corrected(slow, {joinOf(early, late)}).track(3)->states.size(), 41U);
+    for (const double rate_hz : {0.9, 0.95, 0.99}) {
+        slow.frame_rate_hz = rate_hz;
+        EXPECT_EQ(corrected(slow, {joinOf(early, late)}).track(3)->states.size(), 41U) << rate_hz;
+    }
 }
 
 TEST(CorrectedTracks, WhereBothAreWhatWasSeenCountsBeforeWhatWasPredicted) {
