@@ -62,7 +62,7 @@ GeoReference::GeoReference(const MetadataTimeline& timeline, GeoFootage footage)
         std::array<cv::Point2d, 4> quad;
         std::transform(view.footprint->begin(), view.footprint->end(), quad.begin(),
                        [&](const GeoPoint& corner) { return plane_.metresOf(corner); });
-        if (cv::norm(quad[0]) > kFarthest_m || !isConvex(quad)) continue;
+        if (cv::norm(quad[0]) > kFarthest_m) continue;
         Statement statement{outlineOnto(quad, footage_.image_size), std::nullopt};
         if (const auto height = state.number(tag::kCentreEllipsoidHeight)) {
             statement.elevation = Elevation{*height, true};

@@ -65,8 +65,9 @@ const char* lay(GroundView& view, const LocalPlane& plane, const Quad& quad, con
     view.gsd_x_m_per_px = cv::norm(middle.vector({1, 0}));
     view.gsd_y_m_per_px = cv::norm(middle.vector({0, 1}));
     const cv::Point2d x = middle.vector({1, 0}), y = middle.vector({0, 1});
-    // The step in the image that leads straight north: the inverse of the local map, times (0, 1).
-    const cv::Point2d north = cv::Point2d(-y.x, x.x) * (1 / x.cross(y));
+    // The step in the image that leads straight north: the inverse of the local map, times (0, 1), but for its length.
+    // The picture is not mirrored, so that the map's determinant is negative.
+    const cv::Point2d north(y.x, -x.x);
     view.north_deg = degreesFromRadians(std::atan2(north.y, north.x));
     return nullptr;
 }

@@ -89,7 +89,7 @@ void listParameters(ReportPage& page, const RunEvaluation& e, const std::set<std
     for (std::size_t i = 0; i < half; ++i) {
         std::vector<std::string> row;
         for (const std::size_t at : {i, i + half}) {
-            if (at >= e.parameters.size()) continue;
+            if (at >= e.parameters.size()) break;
             const auto& [name, value] = e.parameters[at];
             const bool strong = different.contains(name);
             for (const std::string& text : {name, value})

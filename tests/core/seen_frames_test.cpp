@@ -119,6 +119,16 @@ TEST(SeenFrames, GoingFromEventToEventIsNoPlaying) {
     recorder.interrupt(105);
     EXPECT_THAT(recorder.take(), ElementsAre(FrameSpan{0, 0}, FrameSpan{10, 10}, FrameSpan{20, 20}, FrameSpan{30, 30},
                                              FrameSpan{40, 40}));
+    // The next frame joins one that stood, either way, however short it was looked at itself.
+    for (const int next : {61, 60, 59, 62, 58}) {
+        recorder.show(60, 2.4, 150);
+        recorder.show(next, next * 0.04, 152);
+        recorder.interrupt(152.1);
+        const bool joins = std::abs(next - 60) <= 1;
+        EXPECT_THAT(recorder.take(),
+                    ElementsAre(joins ? FrameSpan{std::min(60, next), std::max(60, next)} : FrameSpan{60, 60}))
+            << next;
+    }
     // Stepping is: each frame was looked at.
     for (int i = 0; i < 5; ++i) recorder.show(100 - i, (100 - i) / 30.0, 200 + i);
     recorder.interrupt(205);

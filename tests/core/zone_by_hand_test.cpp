@@ -47,11 +47,18 @@ TEST(ZoneByHand, EveryPointHasAPlace) {
 TEST(ZoneByHand, AnOutlineMayTurnBackAndTouchItselfButNotCross) {
     EXPECT_EQ(fault(ZoneShape::area, {{0, 0}, {30, 0}, {30, 10}, {10, 10}, {10, 30}, {0, 30}}), "") << "an L";
     // The third of these corners lies on the first edge.
-    Points touching{{0, 0}, {10, 0}, {10, 10}, {5, 0}, {0, 10}};
-    for (int turn = 0; turn < 5; ++turn) {
-        EXPECT_EQ(fault(ZoneShape::area, touching), "") << turn;
-        std::rotate(touching.begin(), touching.begin() + 1, touching.end());
-    }
+    const Points touching{{0, 0}, {10, 0}, {10, 10}, {5, 0}, {0, 10}};
+    for (const bool mirrored : {false, true})
+        for (const bool back : {false, true}) {
+            Points points = touching;
+            if (mirrored)
+                for (cv::Point2d& at : points) at.y = 40 - at.y;
+            if (back) std::reverse(points.begin(), points.end());
+            for (int turn = 0; turn < 5; ++turn) {
+                EXPECT_EQ(fault(ZoneShape::area, points), "") << mirrored << back << turn;
+                std::rotate(points.begin(), points.begin() + 1, points.end());
+            }
+        }
     // An edge to the last corner and the one from it cross the first.
     Points crossing{{0, 0}, {10, 0}, {10, 10}, {5, -5}, {0, 10}};
     for (int turn = 0; turn < 5; ++turn) {

@@ -265,6 +265,34 @@ TEST_F(CorrectedRun, TheTrackBesideARejectedOneIsThatOfTheResultThatLiesBestOnIt
     EXPECT_LE(rejection.other.back().frame, 40);
 }
 
+TEST_F(CorrectedRun, WhatIsThereForHalfOfItIsBesideItAndForLessIsNot) {
+    const auto twin = drivenStates(1, 10, 39, 10);
+    const std::vector<Sighting> seen = rejectionOf(twin).track;
+    ASSERT_EQ(seen.size() % 2, 0U);
+    for (const std::size_t shared : {seen.size() / 2, seen.size() / 2 - 1}) {
+        const auto part = drivenStates(2, 10, seen[shared - 1].frame, 10);
+        const RunRecord run = test::writeRun(path_, kFrames, [&](int frame, FrameResult& result) {
+            for (const auto& states : {twin, part})
+                for (const TrackFrame& each : states)
+                    if (each.frame == frame) result.tracks.push_back(each.state);
+        });
+        const auto beside = trackBeside(RunStore(*project_), run.id, rejectionOf(twin), {1}, {});
+        EXPECT_EQ(beside.empty(), 2 * shared < seen.size()) << shared;
+    }
+}
+
+TEST_F(CorrectedRun, WhatIsAtThePlaceAFrameEarlierIsNotBeside) {
+    // Both go 30 px a frame, three times their length; one is where the other will be a frame later.
+    const auto twin = drivenStates(1, 10, 40, 0, 20, 30), ahead = drivenStates(2, 9, 39, 30, 20, 30);
+    ASSERT_EQ(ahead.front().state.box.centre, twin.front().state.box.centre);
+    const RunRecord run = test::writeRun(path_, kFrames, [&](int frame, FrameResult& result) {
+        for (const auto& states : {twin, ahead})
+            for (const TrackFrame& each : states)
+                if (each.frame == frame) result.tracks.push_back(each.state);
+    });
+    EXPECT_TRUE(trackBeside(RunStore(*project_), run.id, rejectionOf(twin), {1}, {}).empty());
+}
+
 TEST_F(CorrectedRun, ANewRunOfTheVideoCarriesThemOver) {
     correct(joinOf(early_, late_));
     correct(additionOf(drivenSightings(5, 58, 10, 20), 30));

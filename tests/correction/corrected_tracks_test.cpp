@@ -72,6 +72,13 @@ TEST(CorrectedTracks, AJoinOverAGapIsOneTrackThatGoesStraightOnTheGroundMeanwhil
     }
 }
 
+TEST(CorrectedTracks, TheSurerPartTellsWhicheverComesFirst) {
+    auto early = drivenStates(3, 0, 20, 10), late = drivenStates(7, 31, 50, 10);
+    for (TrackFrame& each : early) each.state.score = 0.9;
+    const CorrectedTracks result = corrected(runOf({{3, early}, {7, late}}), {joinOf(early, late)});
+    for (const TrackFrame& each : result.track(3)->states) EXPECT_EQ(each.state.score, 0.9) << each.frame;
+}
+
 TEST(CorrectedTracks, InAGapTheBoxGrowsAndTurnsEvenly) {
     auto early = drivenStates(3, 0, 20, 10), late = drivenStates(7, 31, 50, 10);
     for (TrackFrame& each : early) each.state.box.heading = 3.1;
@@ -116,8 +123,10 @@ TEST(CorrectedTracks, AGapThatTheCameraDoesNotBridgeOrThatIsLongStaysOne) {
     TracksToCorrect slow = runOf({{3, early}, {7, late}});
     slow.frame_rate_hz = 1;  // ten frames are ten seconds
     EXPECT_EQ(corrected(slow, {joinOf(early, late)}).track(3)->states.size(), 51U);
-    slow.frame_rate_hz = 0.9;
-    EXPECT_EQ(corrected(slow, {joinOf(early, late)}).track(3)->states.size(), 41U);
+    for (const double rate_hz : {0.9, 0.95, 0.99}) {
+        slow.frame_rate_hz = rate_hz;
+        EXPECT_EQ(corrected(slow, {joinOf(early, late)}).track(3)->states.size(), 41U) << rate_hz;
+    }
 }
 
 TEST(CorrectedTracks, WhereBothAreWhatWasSeenCountsBeforeWhatWasPredicted) {

@@ -120,6 +120,31 @@ TEST(TurnedIntoMotion, OnTheDiagonalTheUsualShapeIsTaken) {
     }
 }
 
+TEST(TurnedIntoMotion, WaysOnBothSidesOfACutCount) {
+    // The camera's motion is not known from frame 9 to 10. Before that it stands, behind it drives down the picture.
+    std::vector<Homography> steps;
+    for (int frame = 0; frame < 29; ++frame) {
+        if (frame == 9) continue;
+        Homography step;
+        step.from_frame = frame;
+        step.to_frame = frame + 1;
+        steps.push_back(step);
+    }
+    const CameraMotion cut(steps);
+    ASSERT_FALSE(cut.connects(9, 10));
+    std::vector<Sighting> seen;
+    for (int frame = 0; frame < 30; ++frame)
+        seen.push_back({frame, {{200, frame < 10 ? 20.0 : 300 + 2.0 * frame}, 10, 24, 0}});
+    for (const Sighting& each : turnedIntoMotion(seen, cut)) EXPECT_NEAR(each.box.heading, kPi / 2, 1e-9);
+    // To the right before, and to the left twice as far behind it: the longer way tells.
+    for (Sighting& each : seen) {
+        each.box.centre =
+            each.frame < 10 ? cv::Point2d(100 + 6.0 * each.frame, 50) : cv::Point2d(600 - 6.0 * each.frame, 90);
+        std::swap(each.box.length, each.box.width);
+    }
+    for (const Sighting& each : turnedIntoMotion(seen, cut)) EXPECT_NEAR(std::abs(each.box.heading), kPi, 1e-9);
+}
+
 TEST(TurnedIntoMotion, WhatStandsOrIsNotConnectedStaysAsItWasDrawn) {
     std::vector<Sighting> seen;
     for (int frame = 0; frame < 30; ++frame) seen.push_back({frame, {{50.0 + (frame % 2), 20}, 12, 24, 0}});

@@ -113,6 +113,24 @@ TEST(PreparedArea, ParametersThatPrepareItAreNotDeclaredAsDecisionOnly) {
         EXPECT_EQ(declared.count(preparing), 0U) << preparing;
 }
 
+TEST(PreparedArea, TellsAtLeastTheMemoryThatItsWindowsTake) {
+    DetectionOptions options;
+    options.method = DetectionMethod::sliding_window;
+    options.sliding_window = test::drivenSceneWindow();
+    options.sliding_window.decision_threshold = -1000;
+    options.sliding_window.overlap_threshold = 1;
+    options.sliding_window.rejection_margin = 1000;  // none is given up
+    options.sliding_window.need_support = false;
+    const auto detector = makeDetector(options, test::kContractScale);
+    const MotionRoi roi = test::roiOf(drivenScene(0.4));
+    const auto prepared = detector->prepare(roi);
+    ASSERT_NE(prepared, nullptr);
+    // Each window that is kept for a later decision has four edges and a value, at least.
+    const std::size_t windows = detector->decide(roi, prepared.get()).size();
+    ASSERT_GT(windows, 10U);
+    EXPECT_GE(prepared->bytes(), windows * 5 * sizeof(float));
+}
+
 TEST(PreparedArea, OfAnEmptyAreaIsNothing) {
     DetectionOptions options;
     options.method = DetectionMethod::gradient;

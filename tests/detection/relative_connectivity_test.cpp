@@ -75,6 +75,30 @@ TEST(RelativeConnectivity, RowsAndColumnsAddUpAndTransposeAlike) {
     EXPECT_EQ(accumulator.at<int>(3, 5), 0);  // inside
 }
 
+TEST(RelativeConnectivity, AnAreaThatIsScaledDownIsTheMeanOfItsPixels) {
+    // A car of 46 px is made 15 px long, so that every third row and column would stay of a pattern of single ones.
+    const SceneScale scale{0.1, 25, true};
+    RelativeConnectivityOptions options;
+    options.car_length = 46.0 / 3;
+    options.low = 10;
+    GradientOptions components;
+    components.fall_back = false;
+    const RelativeConnectivitySegmenter segmenter(options, components, scale, 0.5);
+    MotionRoi roi;
+    roi.image = cv::Mat(90, 120, CV_8UC1, cv::Scalar(90));
+    roi.inside = cv::Mat(roi.image.size(), CV_8UC1, cv::Scalar(255));
+    roi.image(cv::Rect(30, 30, 45, 18)).setTo(130);
+    for (int y = 1; y < roi.image.rows; y += 3)
+        for (int x = 1; x < roi.image.cols; x += 6) roi.image.at<uchar>(y, x) = 255;
+    DetectionTrace trace;
+    segmenter.detect(roi, &trace);
+    for (const auto& layer : trace.layers) {
+        if (layer.kind != TraceLayer::bright_areas) continue;
+        EXPECT_GT(cv::mean(layer.image(cv::Rect(33, 33, 39, 12)))[0], 40) << "the bright place";
+        EXPECT_EQ(cv::countNonZero(layer.image(cv::Rect(84, 0, 36, 90))), 0) << "nothing of the pattern beside it";
+    }
+}
+
 TEST(RelativeConnectivity, DarkVehiclesAreFoundLikeBrightOnes) {
     auto bright = test::drivenScene(0.4);
     auto dark = bright;

@@ -363,6 +363,40 @@ TEST(SegmenterReference, AGraphCutBeginsWithTheVectorsSurroundings) {
     }
 }
 
+TEST(SegmenterReference, WithoutVectorsAGraphCutFindsWhatFillsTheMiddleAlone) {
+    // Two alike, of which one lies within the middle half and the other below it: only the one is asked for.
+    MotionRoi roi;
+    roi.image = cv::Mat(64, 64, CV_8UC1);
+    cv::RNG random(3);
+    random.fill(roi.image, cv::RNG::NORMAL, 90, 4);
+    for (const int top : {17, 49}) {
+        cv::Mat vehicle = roi.image(cv::Rect(20, top, 24, 8));
+        random.fill(vehicle, cv::RNG::NORMAL, top == 17 ? 180 : 30, 4);
+    }
+    roi.inside = cv::Mat(roi.image.size(), CV_8UC1, cv::Scalar(255));
+    const cv::Mat labels = graphCutSegments(roi);
+    EXPECT_GT(cv::countNonZero(labels(cv::Rect(20, 17, 24, 8))), 150) << "in the upper half of the middle";
+    EXPECT_EQ(cv::countNonZero(labels(cv::Rect(20, 49, 24, 8))), 0) << "below the middle";
+}
+
+TEST(SegmenterReference, TheThesisDeliversWhatItsGradientFindsAndNothingElse) {
+    using Method = GradientMethod;
+    for (const Method method : {Method::lbp, Method::simple, Method::canny, Method::morphological}) {
+        DetectionOptions options;
+        options.method = DetectionMethod::gradient;
+        options.gradient = GradientOptions::thesis(method);
+        // Table 7.3.
+        EXPECT_EQ(options.gradient.effectiveQuantile(), method == Method::lbp      ? 0.12
+                                                        : method == Method::simple ? 0.15
+                                                        : method == Method::canny  ? 0.14
+                                                                                   : 0.16);
+        MotionRoi plain = roiOf(drivenScene(0.4));
+        plain.image.setTo(90);
+        EXPECT_TRUE(makeDetector(options, kTenToAMetre)->detect(plain).empty()) << "no box of the cluster instead";
+        EXPECT_FALSE(makeDetector(options, kTenToAMetre)->detect(roiOf(drivenScene(0.4))).empty());
+    }
+}
+
 TEST(SegmenterReference, ContoursAreBlendedInByTheirStrength) {
     const cv::Mat gray = (cv::Mat_<uchar>(2, 3) << 100, 100, 40, 40, 200, 200);
     const cv::Mat contours = (cv::Mat_<float>(2, 3) << 0, 2, 4, 1, 3, 0);

@@ -101,6 +101,17 @@ TEST(SlidingWindowOptions, ScalesOfDefaultsAndThesis) {
         thesis.middle_scale = outside;
         EXPECT_NEAR(thesis.scales()[1], std::sqrt(0.85 * 3.8), 1e-9) << outside;
     }
+    // However near it lies to an end, it is among them, and so are both ends.
+    for (const WindowRescaling rescaling : {WindowRescaling::length_3, WindowRescaling::length_11})
+        for (const double near : {0.851, 3.79}) {
+            thesis.rescaling = rescaling;
+            thesis.middle_scale = near;
+            const std::vector<double> scales = thesis.scales();
+            ASSERT_EQ(scales.size(), rescaling == WindowRescaling::length_3 ? 3U : 11U);
+            EXPECT_EQ(scales.at(near < 1 ? 1 : scales.size() - 2), near);
+            EXPECT_DOUBLE_EQ(scales.front(), 0.85);
+            EXPECT_DOUBLE_EQ(scales.back(), 3.8);
+        }
 }
 
 TEST(ScanAtScale, WithoutRejectionEveryWindowIsLookedAtToTheEnd) {
@@ -189,6 +200,24 @@ TEST(ScanAtScale, WhatIsShrunkInOneDirectionIsAveraged) {
     cv::resize(area, shrunk, {area.cols, 40}, 0, 0, cv::INTER_AREA);
     scanAtScale(scanner, area, 2, options, kContractScale, of_area);
     scanAtScale(scanner, shrunk, 1, options, kContractScale, of_shrunk);
+    ASSERT_FALSE(of_shrunk.empty());
+    ASSERT_EQ(of_area.size(), of_shrunk.size());
+    EXPECT_EQ(cv::norm(of_area, of_shrunk, cv::NORM_INF), 0);
+}
+
+TEST(ScanAtScale, WhatIsShrunkAcrossAloneIsAveragedToo) {
+    // Along nothing is scaled, across two pixels become one.
+    SlidingWindowOptions options = drivenSceneWindow();
+    options.car_length_m = 21.5 * kContractScale.gsd_m_per_px;
+    options.car_width_m = 20 * kContractScale.gsd_m_per_px;
+    options.rejection_margin = SlidingWindowOptions::kNoRejection;
+    const WindowScanner scanner(loadModel(test::drivenSceneModel()));
+    const cv::Mat area = roiOf(drivenScene(0.5)).image.colRange(0, 40);
+    ASSERT_EQ(rescaledSize(area.size(), 1, options, kContractScale, scanner.model().fit), cv::Size(20, area.rows));
+    cv::Mat shrunk, of_area, of_shrunk;
+    cv::resize(area, shrunk, {20, area.rows}, 0, 0, cv::INTER_AREA);
+    scanAtScale(scanner, area, 1, options, kContractScale, of_area);
+    scanner.scan(shrunk, WindowScanner::kNothingRejected, of_shrunk);
     ASSERT_FALSE(of_shrunk.empty());
     ASSERT_EQ(of_area.size(), of_shrunk.size());
     EXPECT_EQ(cv::norm(of_area, of_shrunk, cv::NORM_INF), 0);

@@ -87,6 +87,8 @@ TEST(WindowAndGradient, TellsSharesOnlyBesideASureWindow) {
         if (check.parameter != std::string("window_and_gradient.most_covered")) continue;
         shares.push_back(check.value);
         boxes.push_back(check.box);
+        EXPECT_TRUE(check.at_most);
+        EXPECT_EQ(check.passed, check.value <= check.limit) << "what is covered does not pass";
     }
     ASSERT_EQ(shares.size(), 2U);
     EXPECT_NEAR(shares[0], 0.9, 1e-6) << "half a pixel of five lies behind the car";

@@ -232,6 +232,42 @@ TEST(CarryOver, ReachesAsFarAsItsLimitsOnTheGroundAndInThePicture) {
     EXPECT_EQ(carried("review.carry_distance", "50"), 0) << "nothing tells of the ground between them";
 }
 
+TEST(CarryOver, OfTwoThatAreNearInThePictureTheNearerTakesIt) {
+    test::DrivenTracks driven;
+    StoredTracks run = runOf(driven);
+    run.footage.camera = CameraMotion();
+    std::vector<Event> events(2);
+    for (std::size_t i = 0; i < 2; ++i) {
+        events[i].kind = EventKind::stops;
+        events[i].first_frame = events[i].frame = 130;
+        events[i].last_frame = 150;
+    }
+    auto verdicts = verdictsOn({events[0]}, run);
+    verdicts.at(1).subject.frame = 128;
+    verdicts.at(1).subject.place = {300, 300};
+    for (const bool first : {true, false}) {
+        events[0].place = {first ? 304.0 : 312.0, 300};
+        events[1].place = {first ? 312.0 : 304.0, 300};
+        EXPECT_THAT(carryOver(verdicts, events, {}, run).of_event, testing::ElementsAre(first ? 1 : 0, first ? 0 : 1));
+    }
+}
+
+TEST(CarryOver, WhatEndedBeforeDoesNotHideWhatBeginsLater) {
+    // One event lasts all the time, elsewhere; one ended long before the verdict's, at the same place.
+    test::DrivenTracks driven;
+    const StoredTracks run = runOf(driven);
+    std::vector<Event> events(3);
+    const FrameSpan spans[] = {{0, 900}, {100, 110}, {500, 520}};
+    for (std::size_t i = 0; i < 3; ++i) {
+        events[i].kind = EventKind::stops;
+        events[i].first_frame = events[i].frame = spans[i].first;
+        events[i].last_frame = spans[i].last;
+        events[i].place = i == 0 ? cv::Point2d(900, 100) : cv::Point2d(200, 300);
+    }
+    const auto verdicts = verdictsOn({events[2]}, run);
+    EXPECT_THAT(carryOver(verdicts, events, {}, run).of_event, testing::ElementsAre(0, 0, 1));
+}
+
 TEST(CarryOver, StretchesThatCouldNotBeSearchedKeepTheirVerdicts) {
     test::DrivenTracks driven;
     StoredTracks run = runOf(driven);

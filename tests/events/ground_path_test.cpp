@@ -210,6 +210,40 @@ TEST(GroundStretches, ClimbingMakesANewGroundWithTheScaleOfItsFirstFrame) {
     EXPECT_EQ(ground.of(151), nullptr);
 }
 
+TEST(GroundStretches, WhatLiesBehindTheHorizonIsInNoPicture) {
+    // A point at (x, y) of the first frame goes to (x, y) / (1 + x / 10,000) in the second: the horizon is at x =
+    // −10,000.
+    Footage footage = standingCamera();
+    footage.camera = CameraMotion({{cv::Matx33d(1, 0, 0, 0, 1, 0, 1e-4, 0, 1), 0, 1}});
+    footage.last_frame = 1;
+    const GroundStretches ground(footage);
+    ASSERT_THAT(ground.all(), SizeIs(1));
+    const double metres = footage.scale.gsd_m_per_px;
+    EXPECT_FALSE(ground.toImage(1, cv::Point2d(-20'000, 0) * metres));
+    EXPECT_FALSE(ground.toImage(1, cv::Point2d(-10'001, 0) * metres));
+    EXPECT_TRUE(ground.toImage(1, cv::Point2d(-9'000, 0) * metres));
+    const auto above = ground.toImage(1, cv::Point2d(0, -20'000) * metres);
+    ASSERT_TRUE(above);
+    EXPECT_NEAR(above->y, -20'000, 1e-6);
+}
+
+TEST(GroundStretches, TheScaleOfANewGroundIsThatOfTheMiddleOfThePicture) {
+    // Each frame the ground is a little smaller, and more so at the bottom: a point at (0, y) goes to y / (1.01 + 1e-6
+    // y).
+    Footage footage = standingCamera();
+    std::vector<Homography> steps;
+    for (int frame = 0; frame < 1000; ++frame)
+        steps.push_back({cv::Matx33d(1, 0, 0, 0, 1, 0, 0, 1e-6, 1.01), frame, frame + 1});
+    footage.camera = CameraMotion(steps);
+    footage.last_frame = 150;
+    const GroundStretches ground(footage);
+    ASSERT_THAT(ground.all(), SizeIs(2));
+    const FrameIndex last = ground.all()[0].last_frame;
+    EXPECT_NEAR(ground.all()[1].metres_per_px, ground.metresPerPixel(last, {499.5, 299.5}), 1e-9);
+    EXPECT_GT(std::abs(ground.metresPerPixel(last, {499.5, 499.5}) - ground.metresPerPixel(last, {499.5, 299.5})),
+              1e-4);
+}
+
 TEST(GroundStretches, ThePictureReachesHalfAPixelBeyondItsCentres) {
     const Footage footage = standingCamera();
     const GroundStretches ground(footage);

@@ -162,6 +162,20 @@ TEST(Standstills, ATrackThatIsLostInAStandstillNeedsToShowLessOfIt) {
     EXPECT_THAT(scene.events(EventKind::stops), IsEmpty()) << "it is not lost, the video is over";
 }
 
+TEST(Standstills, ATenthOfASecondMayPassUnseenBeforeOneThatIsLost) {
+    // At ten frames a second that is one frame just so.
+    DrivenTracks scene;
+    scene.noise_px = 0;
+    scene.scale.frame_rate_hz = 10;
+    scene.drive({20, 60}, 0, {{4, 36, 36}, {3.3, 36, 0}, {0.8, 0, 0}});
+    const auto stops = scene.events(EventKind::stops);
+    ASSERT_THAT(tracksOf(stops), ElementsAre(1));
+    scene.tracks[0].seen_until = stops[0].frame - 1;
+    EXPECT_THAT(scene.events(EventKind::stops), ::testing::SizeIs(1));
+    scene.tracks[0].seen_until = stops[0].frame - 2;
+    EXPECT_THAT(scene.events(EventKind::stops), IsEmpty());
+}
+
 TEST(Standstills, APauseAndBrakingAreNone) {
     DrivenTracks scene;
     scene.noise_px = 0;

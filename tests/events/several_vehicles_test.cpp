@@ -95,6 +95,16 @@ TEST(Flow, WhoTurnsOffToWhereNobodyDrivesLeavesIt) {
     EXPECT_GT(events[0].figure, 30);
 }
 
+TEST(Flow, WhoTurnsOffIsFoundInVideoOfAFrameASecondToo) {
+    DrivenTracks scene;
+    scene.noise_px = 0;
+    scene.scale.frame_rate_hz = 1;
+    scene.frames = 60;
+    for (int i = 0; i < 8; ++i) scene.drive({-10, 50}, 0, {{40, 18, 18}}, i);
+    const TrackId leaving = scene.drive({-10, 50}, 0, {{16, 18, 18}, {4, 18, 18, 22.5}, {8, 18, 18}}, 10);
+    EXPECT_THAT(tracksOf(scene.events(EventKind::leaves_flow)), ElementsAre(leaving));
+}
+
 TEST(Flow, WhoDrivesOnWhereOthersWereLostDoesNotLeaveIt) {
     DrivenTracks scene;
     for (int i = 0; i < 10; ++i) {
@@ -131,6 +141,49 @@ TEST(Convoys, LastAsLongAsTheLastSeenPassesWhereTheOneBeforeWas) {
     EXPECT_EQ(events[0].last_frame, 546);
     EXPECT_EQ(events[0].frame, 273);
     EXPECT_NEAR(scene.placeOf(events[0]).x, 32 + 273 / 4.5, 1e-6) << "one that follows is shown";
+}
+
+TEST(Convoys, LastFromTheFirstWhoFollowsHoweverLateOthersAreFound) {
+    // 18 m apart at 20 km/h; one of the three is found eight seconds after the others.
+    for (const int late : {0, 2}) {
+        DrivenTracks scene;
+        scene.noise_px = 0;
+        for (int i = 0; i < 3; ++i) {
+            const double seconds = i == late ? 8 : 0;
+            scene.drive({50.0 - 18 * i + seconds * 20 / 3.6, 40}, 0, {{25 - seconds, 20, 20}},
+                        static_cast<int>(seconds * 25));
+        }
+        EventOptions options;
+        options.convoy_time_s = 8;
+        const auto events = scene.events(EventKind::convoy, options);
+        ASSERT_EQ(events.size(), 1U) << late;
+        EXPECT_THAT(events[0].tracks, ElementsAre(1, 2, 3));
+        EXPECT_EQ(events[0].first_frame, 0) << late;
+        EXPECT_GT(events[0].last_frame, 500) << late;
+    }
+}
+
+TEST(Convoys, WhoDoesNotFollowForThreeSecondsBeginsAnew) {
+    // The last of three goes 6 m beside the others meanwhile, and comes back; 12 s before that and 9 s after it.
+    const auto convoysOf = [](double beside_s, double least_s) {
+        DrivenTracks scene;
+        scene.noise_px = 0;
+        for (int i = 0; i < 3; ++i) {
+            std::vector<std::pair<cv::Point2d, double>> poses;
+            for (int frame = 0; frame < 25 * 26; ++frame) {
+                const double seconds = frame / 25.0;
+                const bool beside = i == 2 && seconds > 13 && seconds < 13 + beside_s;
+                poses.push_back({{50.0 - 18 * i + seconds * 20 / 3.6, beside ? 46.0 : 40.0}, 0});
+            }
+            scene.follow(poses);
+        }
+        EventOptions options;
+        options.convoy_time_s = least_s;
+        return scene.events(EventKind::convoy, options).size();
+    };
+    EXPECT_EQ(convoysOf(0, 15), 1U);
+    EXPECT_EQ(convoysOf(4, 15), 0U);
+    EXPECT_GE(convoysOf(4, 7), 1U);
 }
 
 TEST(Convoys, TwoOnTwoRoadsAtATimeAreTwo) {

@@ -102,6 +102,25 @@ TEST_F(EarthFormats, TheTableHasUtcMetresAndSpeeds) {
     EXPECT_EQ(rows, 32);
 }
 
+TEST_F(EarthFormats, TheTableIsThisToTheLetter) {
+    LabelFile labels;
+    labels.world = worldOf();
+    LabelBox car;
+    car.frame = 5;
+    car.id = 3;
+    car.box = {{100.12345678, 60.98765432}, 20.00004, 9.33333333, radiansFromDegrees(-33.333333)};
+    car.object_class = "car, red";
+    car.score = 0.123456789;
+    car.velocity = {2, 0};
+    labels.boxes[5].push_back(car);
+    write(labels, "tracks-csv");
+    const std::string row = text().substr(text().find('\n') + 1);
+    // Half a metre a pixel: 100.12345678 px are 50.061728 m; four decimals of pixels, three of metres.
+    EXPECT_THAT(row, testing::StartsWith(
+                         "3,5,0.2,2009-01-12T22:08:22.200000Z,100.1235,60.9877,20,9.3333,326.6667,2,50.062,30.494,"));
+    EXPECT_THAT(row, testing::EndsWith(",10,4.67,\"car, red\",0.123457,\n"));
+}
+
 TEST_F(EarthFormats, WhatIsNotKnownIsEmptyInTheTable) {
     const ExportReport report = write(tracks(worldOf({.ground = false, .place = false, .utc = false})), "tracks-csv");
     CsvReader table(file_, {"track"});
@@ -195,6 +214,21 @@ TEST_F(EarthFormats, AreRefusedWithTheReasonWhereNoPlaceOrTimeIsKnown) {
     }
     EXPECT_THAT(messageOf([&] { write(tracks(worldOf({.utc = false})), "stanag4676"); }),
                 AllOf(HasSubstr("when the video was taken"), HasSubstr("--start")));
+}
+
+TEST_F(EarthFormats, BoxesWithoutANumberGetOneWhereTracksAreWritten) {
+    LabelFile labels = tracks(worldOf());
+    labels.boxes[5][0].id.reset();
+    for (const char* format : {"geojson", "kml", "stanag4676"})
+        EXPECT_EQ(write(labels, format).lost(LossKind::id), 1) << format;
+    EXPECT_EQ(write(labels, "tracks-csv").lost(LossKind::id), 0) << "a row needs none";
+    write(labels, "kml");
+    pugi::xml_document document;
+    ASSERT_TRUE(document.load_file(file_.c_str()));
+    std::set<std::string> names;
+    for (const pugi::xml_node mark : document.child("kml").child("Document").children("Placemark"))
+        names.insert(mark.child_value("name"));
+    EXPECT_THAT(names, testing::ElementsAre("12", "13", "3", "7")) << "the next free number";
 }
 
 TEST_F(EarthFormats, WithoutTracksTheFilesAreEmptyButWhole) {

@@ -100,6 +100,19 @@ TEST_F(FormatValues, FramesOfImageTextsFollowTheImages) {
                 HasSubstr("g.txt: there is no image of this name"));
 }
 
+TEST_F(FormatValues, CocoTellsTheSizeOfItsImagesWhereItIsOne) {
+    const auto sizeBy = [&](const std::string& size) {
+        return read("a.json",
+                    R"({"images":[{"id":1,"file_name":"a.png")" + size +
+                        R"(}],"annotations":[{"image_id":1,"bbox":[10,20,30,40]}]})",
+                    "coco")
+            .image_size;
+    };
+    EXPECT_EQ(sizeBy(R"(,"width":320,"height":240)"), cv::Size(320, 240));
+    for (const char* none : {"", R"(,"width":320)", R"(,"width":0,"height":240)", R"(,"width":320,"height":0)"})
+        EXPECT_FALSE(sizeBy(none)) << none;
+}
+
 TEST_F(FormatValues, YoloNamesComeFromDataYaml) {
     for (const char* names :
          {"names: [car, 'big truck']\n", "names:\n  0: car\n  1: \"big truck\"\n", "names:\n- car\n- big truck\n"}) {

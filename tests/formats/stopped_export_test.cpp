@@ -53,7 +53,12 @@ TEST_P(StoppedExport, LeavesNothingOrIsWhole) {
         }
         for (const auto& file : written) EXPECT_TRUE(std::filesystem::exists(file)) << file;
     }
-    EXPECT_GE(stopped, static_cast<int>(labels.boxes.size())) << "while the labels are looked through at least";
+    // They are looked through once and written once; of several files the second look cannot be left half done.
+    const auto& known = labelFormats();
+    const bool folder =
+        std::find_if(known.begin(), known.end(), [](const auto& format) { return format.name == GetParam(); })->folder;
+    const bool one_file = !folder && filesToWrite(folder_ / "labels.txt", GetParam(), options()).size() == 1;
+    EXPECT_GE(stopped, static_cast<int>(labels.boxes.size()) * (one_file ? 2 : 1));
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, StoppedExport,

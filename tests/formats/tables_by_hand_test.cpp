@@ -323,6 +323,59 @@ TEST_F(TablesByHand, MotIsKnownByItsFirstLine) {
                 HasSubstr("matches no known format"));
 }
 
+TEST_F(TablesByHand, YoloIsKnownByAClassAndSharesOfThePicture) {
+    const auto isYolo = [&](const std::string& text) {
+        std::string found;
+        messageOf([&] { found = sniffLabelFormat(writeText(folder_ / "s.txt", text)); });
+        return found == "yolo-obb";
+    };
+    const std::string box = "2 0.1 0.5 0.05 0.2", corners = "2 0.1 0.5 0.05 0.5 0.05 0.2 0.1 0.2";
+    for (const std::string& line : {box, box + " 0.75", corners, corners + " 0.75"}) {
+        EXPECT_TRUE(isYolo(line + "\n")) << line;
+        EXPECT_TRUE(isYolo("\n \n" + line + "\n")) << line;
+        EXPECT_FALSE(isYolo(line + " 1 1\n")) << line;
+        EXPECT_FALSE(isYolo("-" + line + "\n")) << "no number of a class";
+        EXPECT_FALSE(isYolo("2.5" + line.substr(1) + "\n")) << "no number of a class";
+    }
+    // A box may reach beyond the picture, but not by pictures; what follows is a score, however large.
+    EXPECT_TRUE(isYolo("2 -3 3 0.05 0.2\n"));
+    for (const char* far : {"2 3.1 0.5 0.05 0.2\n", "2 0.1 0.5 0.05 -3.1\n", "2 0.1 0.5 0.05 3.1 0.75\n",
+                            "2 0.1 0.5 0.05 0.5 0.05 0.2 0.1 3.1\n", "2 3.1 0.5 0.05 0.5 0.05 0.2 0.1 0.2 0.75\n"})
+        EXPECT_FALSE(isYolo(far)) << far;
+    EXPECT_TRUE(isYolo(box + " 99\n"));
+    EXPECT_TRUE(isYolo(corners + " 99\n"));
+}
+
+TEST_F(TablesByHand, ViratIsKnownByEightNumbersAndItsTypes) {
+    const auto isVirat = [&](const std::string& text) {
+        std::string found;
+        messageOf([&] { found = sniffLabelFormat(writeText(folder_ / "s.txt", text)); });
+        return found == "virat";
+    };
+    for (int type = 0; type <= 5; ++type) EXPECT_TRUE(isVirat("0 1 7 10 20 30 40 " + std::to_string(type) + "\n"));
+    for (const char* other : {"0 1 7 10 20 30 40 -1\n", "0 1 7 10 20 30 40 6\n", "0 1 7 10 20 30 40\n",
+                              "0 1 7 10 20 30 40 1 1\n", "0 1 7 10 20 30 40 1 x\n"})
+        EXPECT_FALSE(isVirat(other)) << other;
+}
+
+TEST_F(TablesByHand, ColumnsMayBePartedByManyBlanks) {
+    ImportOptions options;
+    options.columns = "frame  id   x1 y1  w h";
+    const LabelFile labels = read("c.txt", "4 7 10 20 30 40\n", "columns", options);
+    ASSERT_EQ(labels.boxes.count(4), 1U);
+    EXPECT_EQ(labels.boxes.at(4)[0].id, 7);
+    EXPECT_EQ(labels.boxes.at(4)[0].box.length, 30);
+    EXPECT_EQ(labels.boxes.at(4)[0].box.width, 40);
+}
+
+TEST_F(TablesByHand, TheListOfSequencesOfATrackEvalTreeGrows) {
+    for (const ExportFile& file : filesToWrite(folder_ / "tree", "trackeval"))
+        EXPECT_EQ(file.grows, file.path.parent_path().filename() == "seqmaps") << file.path;
+    ExportOptions tracker;
+    tracker.tracker = "ours";
+    for (const ExportFile& file : filesToWrite(folder_ / "tree", "trackeval", tracker)) EXPECT_FALSE(file.grows);
+}
+
 TEST_F(TablesByHand, AnyTwoColumnsOfAnAxisGiveTheSameBox) {
     const std::map<std::string, std::string> across{{"x1", "10"}, {"x2", "40"}, {"cx", "25"}, {"w", "30"}};
     const std::map<std::string, std::string> down{{"y1", "20"}, {"y2", "60"}, {"cy", "40"}, {"h", "40"}};

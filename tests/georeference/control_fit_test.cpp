@@ -137,9 +137,27 @@ TEST(ControlFit, AWrongPointIsNamedWhereOneStandsOut) {
     EXPECT_TRUE(less[0].doubtful);
     EXPECT_FALSE(less[0].suspect);
     EXPECT_THAT(remarkOn(less[0]), testing::HasSubstr("a sixth point would tell"));
+    // Of six it is named.
+    std::vector<ControlPoint> six = points;
+    six.pop_back();
+    EXPECT_EQ(fitControlPoints(six, {}, LocalPlane(kMarket)).at(0).suspect, 5U);
     const auto good = fitControlPoints(corners(), {}, LocalPlane(kMarket));
     EXPECT_FALSE(good.at(0).doubtful);
     EXPECT_EQ(remarkOn(good[0]), "");
+}
+
+TEST(ControlFit, AWrongPointStandsOutAmongOthersThatAreHalfAMetreOff) {
+    std::vector<ControlPoint> points;
+    const cv::Point2d places[] = {{10, 10}, {190, 12}, {185, 95}, {8, 90}, {100, 50}, {60, 20}, {140, 80}, {50, 70}};
+    for (std::size_t i = 0; i < std::size(places); ++i) {
+        const double off = i % 2 == 0 ? 0.5 : -0.5;
+        points.push_back(control(0, places[i], places[i], {off, i % 3 == 0 ? off : -off}));
+    }
+    points[4] = control(0, places[4], places[4], {25, -15});
+    const auto fits = fitControlPoints(points, {}, LocalPlane(kMarket));
+    ASSERT_EQ(fits.size(), 1U);
+    EXPECT_TRUE(fits[0].doubtful);
+    EXPECT_EQ(fits[0].suspect, 4U);
 }
 
 TEST(ControlFit, AMirrorImageIsNoPicture) {
@@ -204,6 +222,26 @@ TEST(ControlFit, BeyondACutNothingIsKnownUnlessItHasPointsOfItsOwn) {
     }
     const GeoReference two = GeoReference::byControl(market(both, 50));
     EXPECT_LT(metresBetween(two.placeOf(60, {100, 50}), {100, 50}), 0.01);
+}
+
+TEST(ControlFit, PointsBehindACutCountWhateverIsWrongBeforeIt) {
+    // Before the cut too few, points on a line, or a mirror image; behind it four that are right.
+    std::vector<ControlPoint> few = corners(), line, mirrored = corners();
+    few.pop_back();
+    for (int i = 0; i < 5; ++i) line.push_back(control(0, {10.0 + 20 * i, 10}, {10.0 + 20 * i, 10}));
+    std::swap(mirrored[0].place, mirrored[1].place);
+    std::swap(mirrored[2].place, mirrored[3].place);
+    for (std::vector<ControlPoint> points : {few, line, mirrored}) {
+        for (ControlPoint right : corners()) {
+            right.frame = 60;
+            points.push_back(right);
+        }
+        std::vector<std::string> why;
+        const GeoReference reference = GeoReference::byControl(market(points, 50), &why);
+        EXPECT_EQ(why.size(), 1U);
+        EXPECT_FALSE(reference.placeOf(10, {100, 50}));
+        EXPECT_LT(metresBetween(reference.placeOf(60, {100, 50}), {100, 50}), 0.01);
+    }
 }
 
 TEST(ControlFit, TheyCountWithoutAnyMetadata) {

@@ -194,6 +194,52 @@ TEST(GeoReferenceByHand, MetadataAreDoubtfulFromATwentiethOfTheDiagonalOn) {
     EXPECT_NE(worse.origin().find("contradict the pictures by 10 m within 2 s"), std::string::npos) << worse.origin();
 }
 
+TEST(GeoReferenceByHand, TheDiagonalIsThatFromTheFirstPixelToTheLast) {
+    const double limit_m = 0.05 * 0.5 * std::hypot(199, 99);
+    int doubtful = 0, good = 0;
+    for (int i = 0; i < 60; ++i) {
+        const GeoReference reference = referenceBy(wholeFlight(), footage({0.430 + 0.0005 * i, 0}));
+        const double apart_m = reference.disagreement_m().value_or(0);
+        if (std::abs(apart_m - limit_m) < 0.002) continue;  // angles are stated to some millimetres
+        EXPECT_EQ(reference.doubtful(), apart_m > limit_m) << apart_m;
+        ++(reference.doubtful() ? doubtful : good);
+    }
+    EXPECT_GT(doubtful, 10);
+    EXPECT_GT(good, 10);
+}
+
+TEST(GeoReferenceByHand, MetadataAndRegistrationAreComparedInTheMiddleOfThePicture) {
+    // By the metadata the camera flies on; by the registration it turns by a degree a frame about its middle besides.
+    GeoFootage turning = footage();
+    std::vector<Homography> steps;
+    const double c = std::cos(CV_PI / 180), s = std::sin(CV_PI / 180);
+    const cv::Point2d middle((kPicture.width - 1) / 2.0, (kPicture.height - 1) / 2.0);
+    for (int frame = 1; frame < kFilmed; ++frame) {
+        Homography step;
+        step.from_frame = frame - 1;
+        step.to_frame = frame;
+        step.matrix = {c, -s, middle.x - c * middle.x + s * middle.y, s, c, middle.y - s * middle.x - c * middle.y, 0,
+                       0, 1};
+        steps.push_back(step);
+    }
+    turning.camera = CameraMotion(steps);
+    std::vector<Stated> still;
+    for (int frame = 0; frame < kFilmed; frame += 5) still.push_back({frame, {-kPixel_m * frame, 0}});
+    EXPECT_NEAR(referenceBy(still, turning).disagreement_m().value_or(1e9), 0, 0.02);
+}
+
+TEST(GeoReferenceByHand, AStatementTwoHundredKilometresAwayIsNoneOfThisVideo) {
+    // The first one says where the video is, and is outnumbered by what is stated later.
+    const auto errorWith = [](double astray_m) {
+        std::vector<Stated> statements{{0}};
+        for (const int frame : {20, 25, 30}) statements.push_back({frame, {astray_m, 0}});
+        return cv::norm(astray(referenceBy(statements, footage()), 28));
+    };
+    EXPECT_NEAR(errorWith(199'000), 199'000, 2000) << "so far a plane holds";
+    EXPECT_LT(errorWith(201'000), 0.05);
+    EXPECT_LT(errorWith(-201'000), 0.05);
+}
+
 TEST(GeoReferenceByHand, ACutSaysNothingOfWhatFollowsIt) {
     const GeoReference reference = referenceBy(wholeFlight(), footage({0.4, 0}, 10));
     EXPECT_NEAR(reference.disagreement_m().value_or(0), 6, 0.04);

@@ -59,6 +59,17 @@ TEST(VideoClock, aFewStampsThatJumpDoNotCount) {
     EXPECT_EQ(unset.origin(), "the video's metadata");
 }
 
+TEST(VideoClock, beginsWhereTheMedianOfItsStampsSaysWhateverTheirOrder) {
+    // Stamps jitter by up to 0.4 s, most of all in the middle of the video.
+    for (const int rare : {3, 19, 20, 21, 38}) {
+        const auto clock = VideoClock::byMetadata(stamped([rare](int i) {
+            const int late_ms = i == rare ? 400 : (i * 7) % 5 * 10;
+            return static_cast<std::uint64_t>(kBegin_us + i * 100'000 + late_ms * 1000);
+        }));
+        EXPECT_EQ(clock.at(0), kBegin_us + 20'000) << rare;
+    }
+}
+
 TEST(VideoClock, oneStampInTenMayDisagreeByMoreThanHalfASecond) {
     const auto clockWith = [](int odd, std::int64_t by_us) {
         return VideoClock::byMetadata(stamped(

@@ -217,6 +217,15 @@ TEST(DamagedKlv, whereTheClockJumpsFirstIsKnown) {
     ASSERT_TRUE(stream.first_jump);
     EXPECT_EQ(stream.first_jump->pictures_before, 50);
     EXPECT_FALSE(collected({at(100, 0), at(101, 25)}).first_jump);
+    // The first track of a file has the number 0. A file of nothing but metadata has no pictures to count.
+    for (const int track : {0, -1}) {
+        MetadataCollector collector({track, 0x101, "klv"});
+        for (const test::Carried& packet : {at(100, 0), at(90, 25)})
+            collector.feed({track, packet.stamp_us, 0, packet.pictures_before, packet.bytes});
+        const MetadataStream of_track = collector.finish();
+        EXPECT_EQ(of_track.steps_back, 1);
+        EXPECT_EQ(of_track.first_jump.has_value(), track == 0);
+    }
 }
 
 TEST(DamagedKlv, otherSetsAreCountedAndLeftAlone) {

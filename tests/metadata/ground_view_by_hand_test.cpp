@@ -87,6 +87,14 @@ TEST(GroundViewByHand, NorthOfASkewedPicture) {
     EXPECT_EQ(groundViewOf(withCentre(cornersAt(kNorthUp), {50 + 114, 25}), kImage).source, GroundSource::none);
     EXPECT_EQ(groundViewOf(withCentre(cornersAt(kNorthUp), {50, 25 - 110}), kImage).source, GroundSource::corners);
     EXPECT_EQ(groundViewOf(withCentre(cornersAt(kNorthUp), {50, 25 - 114}), kImage).source, GroundSource::none);
+    // Those of this trapezoid hypot(150, 300) or 335.4 m; its middle lies at (50, 100).
+    for (const double mirrored : {1.0, -1.0}) {
+        MetadataState trapezoid = cornersAt({cv::Point2d(-50, 300), {150, 300}, {100, 0}, {0, 0}});
+        if (mirrored < 0) trapezoid = cornersAt({cv::Point2d(0, 300), {100, 300}, {150, 0}, {-50, 0}});
+        const double middle = mirrored < 0 ? 200 : 100;
+        EXPECT_EQ(groundViewOf(withCentre(trapezoid, {50 + 334, middle}), kImage).source, GroundSource::corners);
+        EXPECT_EQ(groundViewOf(withCentre(trapezoid, {50 + 337, middle}), kImage).source, GroundSource::none);
+    }
     MetadataState half = cornersAt(kNorthUp);
     set(half, tag::kCentreLatitude, 1);
     EXPECT_EQ(groundViewOf(half, kImage).source, GroundSource::corners) << "half a centre says nothing";

@@ -71,6 +71,14 @@ TEST(KlvValues, endsOfRangesAreMetExactly) {
     EXPECT_EQ(numberOf(*infoOf(96), bytesOfHex("000000")), 0.0);
 }
 
+TEST(KlvValues, NumbersOfAnyLengthHaveOneToEightBytes) {
+    const TagInfo& version = *infoOf(65);
+    EXPECT_FALSE(numberOf(version, {}));
+    EXPECT_EQ(numberOf(version, bytesOfHex("13")), 19.0);
+    EXPECT_EQ(numberOf(version, bytesOfHex("0000000000000013")), 19.0);
+    EXPECT_FALSE(numberOf(version, bytesOfHex("010000000000000013")));
+}
+
 TEST(KlvValues, whatSaysNoValueOrHasAWrongLengthIsNone) {
     EXPECT_FALSE(numberOf(*infoOf(13), bytesOfHex("80000000")));  // "out of range"
     EXPECT_FALSE(numberOf(*infoOf(26), bytesOfHex("8000")));
@@ -304,6 +312,8 @@ TEST(KlvSetsByHand, TheStreamWithMostPlacesIsTheMostUsefulThenTheLongest) {
     EXPECT_EQ(recording.mostUseful(), 2);
     recording.streams.push_back(collected({place(), place()}));
     EXPECT_EQ(recording.mostUseful(), 3);
+    recording.streams.push_back(recording.streams[3]);
+    EXPECT_EQ(recording.mostUseful(), 3) << "the first of two that are alike";
     recording.streams = {MetadataStream()};
     EXPECT_EQ(recording.mostUseful(), -1) << "no set could be read";
 }

@@ -152,6 +152,14 @@ TEST(EventPicturesByHand, WhatHasNoBoxIsRinged) {
     EXPECT_FALSE(drawnAt(still, 622, 150));
 }
 
+TEST(EventPicturesByHand, AStripThatWouldBeThinnerThanAPixelHasOneRow) {
+    const ReviewReportInput input = inputOf({driver(7, {50, 200}, {2, 0})});
+    Frame strip = greyFrame(50);
+    strip.gray = cv::Mat(1, 2500, CV_8UC1, cv::Scalar(120));  // 960 px for 2500: 0.4 px high
+    const cv::Mat still = decoded(eventStill(ReviewScene(input), eventOf({7}, 50, 50, 50, {0, 0}), strip));
+    EXPECT_EQ(still.size(), cv::Size(960, 1));
+}
+
 TEST(EventPicturesByHand, ACloseUpIsFourVehiclesWide) {
     // 40 px of 160: twice as large, with the vehicle in the middle of 320 × 240.
     const ReviewReportInput input = inputOf({driver(7, {100, 200}, {2, 0})});

@@ -83,6 +83,28 @@ TEST(NightPicture, glareMakesHalosAroundLamps) {
     EXPECT_NEAR(strong - dark, 2 * (halo - dark), 0.25 * (strong - dark));
 }
 
+TEST(NightPicture, halosHaveTheColourOfTheirLamps) {
+    SceneDescription scene = darkScene();
+    scene.night.beams = 0;
+    scene.objects.push_back(driving(1, carLook(), {-5, 0}, 0, 0, 1));
+    const cv::Mat without = SceneRenderer(scene).render(0).frame.colour;
+    scene.sensor.glare = 2;
+    const SceneRenderer renderer(scene);
+    Homography image_from_ground;
+    image_from_ground.matrix = renderer.frameFromGround(0);
+    const cv::Mat halos = renderer.render(0).frame.colour - without;
+    const auto haloAt = [&](cv::Point2d ground) {
+        const cv::Point at(image_from_ground.apply(ground));
+        return cv::mean(halos(cv::Rect(at.x - 2, at.y - 2, 5, 5)));
+    };
+    const cv::Scalar ahead = haloAt({-2, 0}), behind = haloAt({-8, 0});
+    EXPECT_GT(behind[2], 3) << "red behind";
+    EXPECT_LT(behind[0], 0.5 * behind[2]);
+    EXPECT_GT(ahead[2], 3);
+    EXPECT_NEAR(ahead[0], ahead[2], 0.4 * ahead[2]) << "white ahead";
+    EXPECT_NEAR(ahead[1], ahead[2], 0.4 * ahead[2]);
+}
+
 TEST(NightPicture, byDayNothingShines) {
     SceneDescription scene = plainScene(1);
     scene.sun.shadow = {0, 0};

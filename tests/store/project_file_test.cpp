@@ -69,6 +69,15 @@ TEST_F(ProjectFileTest, ANewProjectIsOneFileOfOurKind) {
     EXPECT_EQ(entries, 1);
 }
 
+TEST_F(ProjectFileTest, ANewProjectSaysThatItKeepsALog) {
+    ProjectFile::create(path_);
+    std::ifstream file(path_, std::ios::binary);
+    std::string header(100, '\0');
+    ASSERT_TRUE(file.read(header.data(), 100));
+    // "Database File Format", §1.3.3: 2 and 2 for those who write and those who read.
+    EXPECT_EQ(header.substr(18, 2), std::string({2, 2}));
+}
+
 TEST_F(ProjectFileTest, AnExistingFileIsNeverOverwritten) {
     write("my notes");
     expectError(ErrorKind::output, path_.string(), [&] { ProjectFile::create(path_); });

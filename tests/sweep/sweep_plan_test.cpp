@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <iomanip>
+#include <sstream>
+
 #include "core/error.h"
 #include "sweep/sweep_scene.h"
 
@@ -191,6 +194,43 @@ TEST(SweepPlan, DigestsTellClipsAndTruthsApart) {
     EXPECT_NE(digest, digestOf(source->read(1, false), truth));
     truth[3][0].ignore = true;
     EXPECT_NE(digest, digestOf(first, truth));
+}
+
+TEST(SweepPlan, DigestsAreThoseOfOtherMachinesAndVersions) {
+    // FNV-1a of "a" and of "foobar", as its authors publish them.
+    const auto ofRow = [](const std::string& bytes) {
+        Frame frame;
+        // Lies in a wider picture, whose other pixels do not count.
+        cv::Mat wide(3, 20, CV_8UC1, cv::Scalar(77));
+        frame.gray = wide(cv::Rect(2, 1, static_cast<int>(bytes.size()), 1));
+        for (int x = 0; x < frame.gray.cols; ++x)
+            frame.gray.at<uchar>(x) = static_cast<uchar>(bytes[static_cast<std::size_t>(x)]);
+        return digestOf(frame, {});
+    };
+    EXPECT_EQ(ofRow("a"), "af63dc4c8601ec8c");
+    EXPECT_EQ(ofRow("foobar"), "85944171f73967e8");
+    // Of a box its numbers as they lie in memory, each to its last byte.
+    Frame none;
+    BoxRecord record;
+    record.id = 7;
+    record.box = {{1.5, -2}, 4, 2, 0.5};
+    record.ignore = true;
+    record.object_class = "car";
+    std::string bytes;
+    const auto lay = [&bytes](auto value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); };
+    lay(12);
+    lay(7);
+    for (const double number : {1.5, -2.0, 4.0, 2.0, 0.5}) lay(number);
+    lay(true);
+    bytes += "car";
+    std::uint64_t state = 14695981039346656037ULL;
+    for (const char byte : bytes) {
+        state ^= static_cast<unsigned char>(byte);
+        state *= 1099511628211ULL;
+    }
+    std::ostringstream hexadecimal;
+    hexadecimal << std::hex << std::setw(16) << std::setfill('0') << state;
+    EXPECT_EQ(digestOf(none, {{12, {record}}}), hexadecimal.str());
 }
 
 }  // namespace eyrie::sweep_plan_test

@@ -69,6 +69,11 @@ TEST(SweepResultsByHand, OfEqualPointsTheOneInTheMiddleOfTheWholeIsBest) {
                                     {0.8, 0.8, 0.8, 0.8, 0.8, 0.8, 0.8, 0.8, 0.8});
     EXPECT_EQ(bestPoint(grid, {})->position, 4);
     EXPECT_EQ(bestPoint(tableOf({"gradient.quantile=0.1,0.2"}, {0.8, 0.8}), {})->position, 0) << "the first of two";
+    // Five that are equal, behind two that are not: the middle of the five.
+    EXPECT_EQ(
+        bestPoint(tableOf({"gradient.quantile=0.1,0.2,0.3,0.4,0.5,0.6,0.7"}, {0.1, 0.2, 0.8, 0.8, 0.8, 0.8, 0.8}), {})
+            ->position,
+        4);
 }
 
 TEST(SweepResultsByHand, ACurveIsFollowedAtOneValueOfTheOtherAxis) {

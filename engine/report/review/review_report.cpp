@@ -204,7 +204,7 @@ const GroundPath* ReviewScene::pathOf(TrackId track, FrameIndex frame) const {
     for (const GroundPath& path : paths_) {
         if (path.id() != track || path.samples.empty()) continue;
         const FrameIndex first = path.samples.front().frame, last = path.samples.back().frame;
-        const int distance = frame < first ? first - frame : frame > last ? frame - last : 0;
+        const int distance = std::max({0, first - frame, frame - last});
         if (best != nullptr && distance >= least) continue;
         best = &path;
         least = distance;

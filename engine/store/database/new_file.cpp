@@ -55,12 +55,8 @@ bool placed(int failed, const Path& path) {
     fail(path, errno);
 }
 
-bool mayBeTriedOtherwise(int reason) {
-    return reason == EOPNOTSUPP || reason == EPERM || reason == EINVAL || reason == ENOSYS || reason == EISDIR ||
-           reason == ENOENT || reason == EXDEV;
-}
-
-/// For file systems without nameless files: written under another name and then linked or renamed, without replacing.
+/// For file systems without nameless files, which say so in many ways: written under another name and then linked or
+/// renamed, without replacing. What can be made in no way fails here, too.
 bool makeAside(const Path& path, std::string_view bytes) {
     const Path aside = lockFileBeside(path, ".new-" + std::to_string(getpid()));
     unlink(aside.c_str());
@@ -72,7 +68,7 @@ bool makeAside(const Path& path, std::string_view bytes) {
         fail(path, reason);
     }
     int failed = link(aside.c_str(), path.c_str());
-    if (failed != 0 && errno != EEXIST && mayBeTriedOtherwise(errno))
+    if (failed != 0 && errno != EEXIST)
         failed = renameat2(AT_FDCWD, aside.c_str(), AT_FDCWD, path.c_str(), RENAME_NOREPLACE);
     const int reason = errno;
     unlink(aside.c_str());
@@ -87,14 +83,11 @@ bool makeNewFile(const Path& path, std::string_view bytes) {
     if (std::filesystem::exists(std::filesystem::symlink_status(path, ignored))) return false;
     const Path folder = std::filesystem::absolute(path, ignored).parent_path();
     const Descriptor file(open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666));
-    if (!file.isOpen()) {
-        if (mayBeTriedOtherwise(errno)) return makeAside(path, bytes);
-        fail(path, errno);
-    }
+    if (!file.isOpen()) return makeAside(path, bytes);
     if (!file.writeAll(bytes)) fail(path, errno);
     const std::string nameless = "/proc/self/fd/" + std::to_string(file.number());
     const int failed = linkat(AT_FDCWD, nameless.c_str(), AT_FDCWD, path.c_str(), AT_SYMLINK_FOLLOW);
-    if (failed != 0 && errno != EEXIST && mayBeTriedOtherwise(errno)) return makeAside(path, bytes);
+    if (failed != 0 && errno != EEXIST) return makeAside(path, bytes);
     return placed(failed, path);
 }
 

@@ -123,7 +123,11 @@ class Rescue {
             }
             return alive;
         };
-        if (all(kFailuresInVain, kFailuresInVain)) all(kFailures, kFailuresFarOut);
+        // A row at either end tells that more is to be had; a lost last page spoils every stretch that ends behind it.
+        const auto hasEnd = [&](const char* direction) {
+            return copy(group + key + " >= 0", " ORDER BY " + key + direction + " LIMIT 1");
+        };
+        if (hasEnd("") || hasEnd(" DESC") || all(kFailuresInVain, kFailuresInVain)) all(kFailures, kFailuresFarOut);
     }
 
     /// Halves what cannot be read as a whole until patience ends; the large parts come first, so that those that are
@@ -133,12 +137,17 @@ class Rescue {
         std::deque<std::pair<std::int64_t, std::int64_t>> ranges{{first, last}};
         for (; !ranges.empty() && patience > 0; ranges.pop_front()) {
             const auto [low, high] = ranges.front();
-            if (copy(key + " BETWEEN " + std::to_string(low) + " AND " + std::to_string(high))) {
+            const std::string condition = key + " BETWEEN " + std::to_string(low) + " AND " + std::to_string(high);
+            if (copy(condition)) {
                 alive = true;
                 continue;
             }
             --patience;
-            if (low == high) continue;
+            if (low == high) {
+                // One row: the first may be whole where the look for a second fails.
+                if (keys_.size() <= 2) copy(condition, " LIMIT 1");
+                continue;
+            }
             const std::int64_t middle = low + (high - low) / 2;
             ranges.emplace_back(low, middle);
             ranges.emplace_back(middle + 1, high);

@@ -57,6 +57,16 @@ TEST(ControlPoints, WhatIsNotOnTheEarthIsRefusedAndFound) {
     EXPECT_FALSE(isPossible({0, {0, 0}, {std::numeric_limits<double>::quiet_NaN(), 0}}));
     EXPECT_FALSE(isPossible({-1, {0, 0}, {0, 0}}));
     EXPECT_TRUE(isPossible({0, {0, 0}, {0, 0}}));
+    // A point may lie beyond the picture, but not anywhere.
+    EXPECT_TRUE(isPossible({0, {-9e5, 9e5}, {-90, -180}}));
+    EXPECT_TRUE(isPossible({0, {9e5, -9e5}, {90, 180}}));
+    for (const double far : {-1e6, 1e6, 2e6}) {
+        EXPECT_FALSE(isPossible({0, {far, 0}, {0, 0}})) << far;
+        EXPECT_FALSE(isPossible({0, {0, far}, {0, 0}})) << far;
+    }
+    EXPECT_FALSE(isPossible({0, {0, 0}, {-90.1, 0}}));
+    EXPECT_FALSE(isPossible({0, {0, 0}, {0, 180.1}}));
+    EXPECT_FALSE(isPossible({0, {0, 0}, {0, -180.1}}));
 }
 
 }  // namespace
