@@ -133,6 +133,7 @@ TEST(TurnedIntoMotion, WaysOnBothSidesOfACutCount) {
     const CameraMotion cut(steps);
     ASSERT_FALSE(cut.connects(9, 10));
     std::vector<Sighting> seen;
+    seen.reserve(30);
     for (int frame = 0; frame < 30; ++frame)
         seen.push_back({frame, {{200, frame < 10 ? 20.0 : 300 + 2.0 * frame}, 10, 24, 0}});
     for (const Sighting& each : turnedIntoMotion(seen, cut)) EXPECT_NEAR(each.box.heading, kPi / 2, 1e-9);

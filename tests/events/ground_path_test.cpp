@@ -232,6 +232,7 @@ TEST(GroundStretches, TheScaleOfANewGroundIsThatOfTheMiddleOfThePicture) {
     // y).
     Footage footage = standingCamera();
     std::vector<Homography> steps;
+    steps.reserve(1000);
     for (int frame = 0; frame < 1000; ++frame)
         steps.push_back({cv::Matx33d(1, 0, 0, 0, 1, 0, 0, 1e-6, 1.01), frame, frame + 1});
     footage.camera = CameraMotion(steps);

@@ -170,6 +170,7 @@ TEST(Convoys, WhoDoesNotFollowForThreeSecondsBeginsAnew) {
         scene.noise_px = 0;
         for (int i = 0; i < 3; ++i) {
             std::vector<std::pair<cv::Point2d, double>> poses;
+            poses.reserve(25 * 26);
             for (int frame = 0; frame < 25 * 26; ++frame) {
                 const double seconds = frame / 25.0;
                 const bool beside = i == 2 && seconds > 13 && seconds < 13 + beside_s;

@@ -149,6 +149,7 @@ TEST(ControlFit, AWrongPointIsNamedWhereOneStandsOut) {
 TEST(ControlFit, AWrongPointStandsOutAmongOthersThatAreHalfAMetreOff) {
     std::vector<ControlPoint> points;
     const cv::Point2d places[] = {{10, 10}, {190, 12}, {185, 95}, {8, 90}, {100, 50}, {60, 20}, {140, 80}, {50, 70}};
+    points.reserve(std::size(places));
     for (std::size_t i = 0; i < std::size(places); ++i) {
         const double off = i % 2 == 0 ? 0.5 : -0.5;
         points.push_back(control(0, places[i], places[i], {off, i % 3 == 0 ? off : -off}));
@@ -228,6 +229,7 @@ TEST(ControlFit, PointsBehindACutCountWhateverIsWrongBeforeIt) {
     // Before the cut too few, points on a line, or a mirror image; behind it four that are right.
     std::vector<ControlPoint> few = corners(), line, mirrored = corners();
     few.pop_back();
+    line.reserve(5);
     for (int i = 0; i < 5; ++i) line.push_back(control(0, {10.0 + 20 * i, 10}, {10.0 + 20 * i, 10}));
     std::swap(mirrored[0].place, mirrored[1].place);
     std::swap(mirrored[2].place, mirrored[3].place);

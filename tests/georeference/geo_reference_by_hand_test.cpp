@@ -212,6 +212,7 @@ TEST(GeoReferenceByHand, MetadataAndRegistrationAreComparedInTheMiddleOfThePictu
     // By the metadata the camera flies on; by the registration it turns by a degree a frame about its middle besides.
     GeoFootage turning = footage();
     std::vector<Homography> steps;
+    steps.reserve(kFilmed);
     const double c = std::cos(CV_PI / 180), s = std::sin(CV_PI / 180);
     const cv::Point2d middle((kPicture.width - 1) / 2.0, (kPicture.height - 1) / 2.0);
     for (int frame = 1; frame < kFilmed; ++frame) {
@@ -224,6 +225,7 @@ TEST(GeoReferenceByHand, MetadataAndRegistrationAreComparedInTheMiddleOfThePictu
     }
     turning.camera = CameraMotion(steps);
     std::vector<Stated> still;
+    still.reserve(kFilmed / 5);
     for (int frame = 0; frame < kFilmed; frame += 5) still.push_back({frame, {-kPixel_m * frame, 0}});
     EXPECT_NEAR(referenceBy(still, turning).disagreement_m().value_or(1e9), 0, 0.02);
 }

@@ -155,6 +155,7 @@ TEST_F(TableRescueTest, RunsThatTheListLacksAreLookedForEightFurther) {
 
 TEST_F(TableRescueTest, RowsWithNumbersOfTheirOwnAreFoundByThem) {
     std::vector<std::string> rows;
+    rows.reserve(300);
     for (int id = 1; id <= 300; ++id) rows.push_back(std::to_string(id));
     makeDamaged("verdict (id INTEGER PRIMARY KEY, text)", rows);
     std::set<std::string> lost = lose(leafOf("5"));
@@ -167,6 +168,7 @@ TEST_F(TableRescueTest, RowsWithNumbersOfTheirOwnAreFoundByThem) {
 
 TEST_F(TableRescueTest, RowsWithNamesAreReadFromBothEndsUpToWhatIsLost) {
     std::vector<std::string> rows;
+    rows.reserve(89);
     for (int i = 10; i < 99; ++i) rows.push_back("1" + std::to_string(i));
     makeDamaged("preset (name TEXT PRIMARY KEY, text) WITHOUT ROWID", rows);
     const auto lost = lose(leafOf("150"));
