@@ -27,7 +27,7 @@ constexpr std::pair kDrawn(0.1, 0.16);    ///< … and drawn to the scale that w
 constexpr double kDrawnBy = 0.36;         ///< share of the logarithm: the doubt against a spread of .6 among videos
 /// Of the logarithm, by which what is fully doubted seems larger than it is: lit or hazy ground counts as vehicle.
 constexpr double kLargerInDoubt = 0.2;
-/// The same at night, once more: headlights light a strip about each vehicle that is driven with it.
+/// The same at night, once more: headlights light a strip about each vehicle, which goes along with it.
 constexpr double kLargerInDark = 0.3;
 constexpr double kFast = 0.75;        ///< share of the cars that are no faster …
 constexpr double kTownSpeed = 11;     ///< … than so many m/s
