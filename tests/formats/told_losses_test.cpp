@@ -9,8 +9,6 @@
 namespace eyrie::told_losses_test {
 namespace {
 
-using testing::ElementsAre;
-
 class ToldLosses : public testing::TestWithParam<std::string> {
  protected:
     const LabelFormatInfo& info() const {

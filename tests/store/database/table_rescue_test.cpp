@@ -27,8 +27,9 @@ class TableRescueTest : public testing::Test {
         SQLite::Transaction all(database);
         for (const std::string& row : rows) {
             // 400 bytes more: nine rows a page.
-            database.exec("INSERT INTO " + nameOfTable() + " VALUES (" + row + ", '<" + row +
-                          ">' || printf('%.400c', 'x'))");
+            std::string insert = "INSERT INTO " + nameOfTable();
+            insert.append(" VALUES (").append(row).append(", '<").append(row).append(">' || printf('%.400c', 'x'))");
+            database.exec(insert);
             all_.push_back("<" + row + ">");
         }
         all.commit();
