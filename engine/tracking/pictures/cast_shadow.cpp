@@ -17,7 +17,6 @@ constexpr double kLargestResidual = 0.4;  ///< of the reach
 constexpr double kMainSide = 0.5;         ///< of the reach: a side that the shadow falls to
 constexpr double kWhollyInBoxes = 0.95;   ///< share from which on it is no shadow on the ground
 constexpr double kSaysSomething = 0.1;    ///< m
-constexpr double kLitOfBox = 0.6;         ///< share of the box's width: less is a roof or a window alone
 constexpr double kShrinkage = 0.03;       ///< towards no shadow, along axes on which no vehicle says anything
 constexpr double kLeastScatter = 0.05;    ///< m
 constexpr int kFitRounds = 10;
@@ -83,8 +82,7 @@ double agreementOf(const std::vector<ShadowSide>& sides, cv::Point2d reach) {
 }
 
 bool showsVehicle(const SilhouetteLook& look) {
-    return look.silhouette && look.silhouette->lit_vehicle &&
-           look.silhouette->lit->width() > kLitOfBox * look.box.width;
+    return look.silhouette && look.silhouette->lit_vehicle;
 }
 
 using LooksOfStretch = std::vector<const SilhouetteLook*>;

@@ -16,6 +16,7 @@ constexpr double kLampStandsOut = 5;   ///< … and brighter than what they ligh
 constexpr double kLitAhead = 0.5;      ///< … which is brighter than the ground by this share of that
 constexpr double kLitArea = 0.35;      ///< of the whole silhouette: less is a roof, a window or a lamp …
 constexpr double kLitLength = 1.3;     ///< of its width: shorter is a roof before the vehicle's own shaded rear …
+constexpr double kLitWidth = 0.6;      ///< of that of the box: narrower is a roof or a window alone …
 constexpr double kLitFilled = 0.6;     ///< … and so is what fills less of its own edges
 
 }  // namespace
@@ -84,7 +85,9 @@ std::optional<Silhouette> SilhouetteGrid::compare(const cv::Mat& vehicle, const 
                         cvRound(edges.width() / step));
     const double filled = static_cast<double>(cv::countNonZero(lit(area))) / area.area();
     const bool long_enough = edges.length() > kLitLength * edges.width();
-    silhouette.lit_vehicle = edges.area() > kLitArea * whole->area() && filled > kLitFilled && long_enough;
+    const bool wide_enough = edges.width() > kLitWidth * grid_.box().width;
+    silhouette.lit_vehicle =
+        edges.area() > kLitArea * whole->area() && filled > kLitFilled && long_enough && wide_enough;
     if (silhouette.lit_vehicle) silhouette.shade = shadeOf(differs & shaded, area, vehicle, grounds);
     return silhouette;
 }

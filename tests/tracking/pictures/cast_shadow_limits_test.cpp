@@ -104,18 +104,6 @@ TEST(CastShadowLimits, AVehicleSaysWhatMostLooksAtItSay) {
     EXPECT_NEAR(agreementWith(3), 0.8, 1e-9);
 }
 
-TEST(CastShadowLimits, ARoofOrAWindowAloneSaysNothing) {
-    const auto tracksWith = [](double lit_width_m) {
-        std::vector<SilhouetteLook> looks = agreeing(4, {0.6, 0});
-        looks.push_back(saying(20, {0.6, 0}));
-        looks.back().silhouette->lit->left = -lit_width_m / 2 * 5;
-        looks.back().silhouette->lit->right = lit_width_m / 2 * 5;
-        return found(looks).at(0).tracks;
-    };
-    EXPECT_EQ(tracksWith(1.25), 5) << "of a box 2 m wide";
-    EXPECT_EQ(tracksWith(1.15), 4);
-}
-
 TEST(CastShadowLimits, WhoSaysNextToNothingOrTheOppositeDoesNotAgree) {
     const auto agreementWith = [](cv::Point2d said) {
         std::vector<SilhouetteLook> looks = agreeing(9, {0.6, 0});

@@ -154,7 +154,7 @@ TEST(SilhouetteLimits, WhatReachesAnyBorderOfTheGridIsNotTheVehicleAlone) {
     EXPECT_FALSE(seen(with(plain(), {10, 10, 24, 22}, 230)));
 }
 
-TEST(SilhouetteLimits, SurelyTheVehicleIsWhatIsLargeLongAndFull) {
+TEST(SilhouetteLimits, SurelyTheVehicleIsWhatIsLargeLongWideAndFull) {
     const auto isSure = [](const cv::Rect& lit, const cv::Rect& hole = {}) {
         const auto silhouette = seen(with(with(with(plain(), kCar, 80), lit, 230), hole, 80));
         EXPECT_TRUE(silhouette && silhouette->lit);
@@ -165,6 +165,8 @@ TEST(SilhouetteLimits, SurelyTheVehicleIsWhatIsLargeLongAndFull) {
     EXPECT_FALSE(isSure({16, 12, 12, 8})) << "a third of it";
     EXPECT_TRUE(isSure({18, 10, 16, 12})) << "a third longer than wide";
     EXPECT_FALSE(isSure({19, 10, 15, 12})) << "a quarter longer than wide";
+    EXPECT_TRUE(isSure({10, 12, 24, 8})) << "two thirds as wide as the box";
+    EXPECT_FALSE(isSure({10, 12, 24, 7})) << "seven twelfths: a roof or a window alone";
     EXPECT_TRUE(isSure(kCar, {14, 13, 16, 7})) << "61 % full";
     EXPECT_FALSE(isSure(kCar, {14, 13, 17, 7})) << "59 % full";
 }
