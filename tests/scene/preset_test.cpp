@@ -93,7 +93,7 @@ TEST(ScenePreset, namesAreKnownAndOthersRefused) {
     EXPECT_EQ(scenePresetNames(),
               (std::vector<std::string>{"seq1", "seq2", "egtest01", "demo", "stops", "patrol", "road_flight",
                                         "road_flight_haze", "road_flight_dusk", "road_flight_night", "estate", "orbit",
-                                        "city_high", "thermal", "low_rate"}));
+                                        "city_high", "thermal", "low_rate", "motorway"}));
     try {
         scenePreset("seq3");
         FAIL();

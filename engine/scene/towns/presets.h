@@ -22,5 +22,6 @@ SceneDescription presetOrbit(std::uint32_t seed);
 SceneDescription presetCityHigh(std::uint32_t seed);
 SceneDescription presetThermal(std::uint32_t seed);
 SceneDescription presetLowRate(std::uint32_t seed);
+SceneDescription presetMotorway(std::uint32_t seed);
 
 }  // namespace eyrie

@@ -14,7 +14,7 @@ struct Preset {
     std::uint32_t seed;
 };
 
-constexpr std::array<Preset, 15> kPresets{{{"seq1", presetSeq1, 1},
+constexpr std::array<Preset, 16> kPresets{{{"seq1", presetSeq1, 1},
                                            {"seq2", presetSeq2, 1},
                                            {"egtest01", presetEgTest01, 1},
                                            {"demo", presetDemo, 1},
@@ -28,7 +28,8 @@ constexpr std::array<Preset, 15> kPresets{{{"seq1", presetSeq1, 1},
                                            {"orbit", presetOrbit, 1},
                                            {"city_high", presetCityHigh, 1},
                                            {"thermal", presetThermal, 1},
-                                           {"low_rate", presetLowRate, 1}}};
+                                           {"low_rate", presetLowRate, 1},
+                                           {"motorway", presetMotorway, 1}}};
 
 }  // namespace
 
