@@ -28,7 +28,9 @@ TEST(ScaleOutcomes, ScoreIsOfWhatLooksLikeVehiclesAndLittleElse) {
     EXPECT_NEAR((ScaleOutcome{80, 5, 6, 3, 2}).score(), 0.0972, 1e-12);
     EXPECT_EQ((ScaleOutcome{10, 0, 6, 3, 2}).score(), 0);
     EXPECT_EQ(ScaleOutcome().score(), 0);
-    const ScaleOutcome both = ScaleOutcome{10, 5, 6, 3, 2} + ScaleOutcome{1, 2, 3, 4, 5};
+    const ScaleOutcome both = ScaleOutcome{10, 5, 6, 3, 2, 1.5, 1} + ScaleOutcome{1, 2, 3, 4, 5, 0.5, 0.25};
+    EXPECT_EQ(both.whole_tracks, 2);
+    EXPECT_EQ(both.whole_cars, 1.25);
     EXPECT_EQ(both.detections, 11);
     EXPECT_EQ(both.looks, 7);
     EXPECT_EQ(both.decision, 9);
@@ -45,6 +47,58 @@ TEST(ScaleOutcomes, ManyCarSizedTracksSayMoreThanAFewThatLookTheMoreLikeVehicles
     const ScaleOutcome too_fine{40, 20, 10, 8, 4};
     const ScaleOutcome right{100, 20, 10, 8, 7};
     EXPECT_GT(right.score(), too_fine.score());
+}
+
+TEST(ScaleOutcomes, AmidReliefTracksCountThatGoOnLookingLikeCars) {
+    // Five windows look like vehicles, by 6 in all; of what does so for one and a half tracks one is as large as a car:
+    // 6/5 · 1 · (2/3.5)³.
+    EXPECT_NEAR((ScaleOutcome{80, 5, 6, 3, 2, 1.5, 1}).scoreAmidRelief(), 1.2 * std::pow(2 / 3.5, 3), 1e-12);
+    EXPECT_EQ((ScaleOutcome{10, 0, 6, 3, 2, 1.5, 1}).scoreAmidRelief(), 0);
+    EXPECT_EQ((ScaleOutcome{10, 5, 6, 3, 2, 1.5, 0}).scoreAmidRelief(), 0);
+    EXPECT_EQ(ScaleOutcome().scoreAmidRelief(), 0);
+    const ScaleOutcome street{100, 50, 500, 6, 5, 4, 4};
+    const ScaleOutcome street_with_relief{4500, 50, 500, 90, 45, 4, 4};
+    EXPECT_EQ(street.scoreAmidRelief(), street_with_relief.scoreAmidRelief());
+    EXPECT_GT(street.score(), 10 * street_with_relief.score());
+}
+
+/// Two cars, which too fine an assumption shows beside hardly anything else, and six under the right one, which shows
+/// so many other things, too.
+std::vector<ScaleOutcome> amidRelief(double others) {
+    std::vector<ScaleOutcome> outcomes(kScaleAssumptions);
+    outcomes.at(1) = {30, 15, 120, 2, 2, 1.5, 1.5};
+    outcomes.at(4) = {100 + others, 100, 900, 8 + others / 50, 6, 6, 6};
+    return outcomes;
+}
+
+TEST(ScaleOutcomes, WhereMostOfWhatIsDetectedIsReliefItHasNoSay) {
+    for (const double others : {0.0, 240.0, 3000.0}) {
+        const auto found = estimateOfScale(amidRelief(others));
+        ASSERT_TRUE(found) << others;
+        EXPECT_GT(found->gsd_m_per_px, 0.9 * assumedGsd(4)) << others;
+        EXPECT_EQ(found->vehicles, 6) << others;
+    }
+    // Shares of what is detected would take the finer one for right.
+    const std::vector<ScaleOutcome> relief = amidRelief(3000);
+    EXPECT_GT(relief[1].score(), relief[4].score());
+    LooksTogether together;
+    together.add(relief);
+    EXPECT_EQ(together.estimate()->vehicles, 6);
+    together.add(relief);
+    EXPECT_EQ(together.estimate()->vehicles, 12);
+    EXPECT_GT(together.estimate()->gsd_m_per_px, 0.9 * assumedGsd(4));
+}
+
+TEST(ScaleOutcomes, FromThreeOfTenDetectionsOnThatLookLikeVehiclesTheirShareCounts) {
+    // Half as much goes on looking like a car under the finer assumption, which shows little else.
+    const auto vehicles = [](double detections) {
+        std::vector<ScaleOutcome> outcomes(kScaleAssumptions);
+        outcomes.at(1) = {30, 30, 270, 5, 5, 3, 3};
+        outcomes.at(4) = {detections, 30, 270, 30, 7, 6, 6};
+        return estimateOfScale(outcomes).value().vehicles;
+    };
+    EXPECT_EQ(vehicles(99), 5);
+    EXPECT_EQ(vehicles(101), 7);
 }
 
 TEST(ScaleOutcomes, InTheDarkSizesAreThoseOfVehiclesWithWhatTheyLight) {
@@ -120,7 +174,7 @@ TEST(ScaleOutcomes, SpeedsSayTheMoreTheLessSureSizesAre) {
     // Of four cars that are seen at .056 m/px three drive at no more than 22 m/s, twice the 11 m/s of towns: .028 m/px.
     const auto found = [](double detections, const std::vector<double>& speeds) {
         std::vector<ScaleOutcome> outcomes(kScaleAssumptions);
-        outcomes.at(1) = {detections, 24, 200, 4, 4, speeds};
+        outcomes.at(1) = {detections, 24, 200, 4, 4, 0, 0, speeds};
         outcomes.at(3).car_speeds_m_s = {99, 99, 99, 99};  // of an assumption that says nothing
         return estimateOfScale(outcomes).value();
     };

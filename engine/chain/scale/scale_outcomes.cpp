@@ -16,9 +16,11 @@ constexpr double kStep = 1.4;     ///< from one assumption to the next
 /// looks like a vehicle: so that counts less than what is as large as a car.
 constexpr double kAlikePower = 0.75;
 constexpr double kCarsPower = 4;
-constexpr double kFewestLooks = 8;  ///< sure windows under the best assumption; fewer are chance
-constexpr int kReach = 2;           ///< assumptions on both sides of the best one that have a say
-constexpr double kOwnError = 0.11;  ///< standard error of the logarithm where very many vehicles drive
+constexpr double kWholeCarsPower = 3;  ///< of the share of cars in what goes on looking like whole vehicles
+constexpr double kMostlyRelief = 0.3;  ///< share of the detections below which only such tracks count
+constexpr double kFewestLooks = 8;     ///< sure windows under the best assumption; fewer are chance
+constexpr int kReach = 2;              ///< assumptions on both sides of the best one that have a say
+constexpr double kOwnError = 0.11;     ///< standard error of the logarithm where very many vehicles drive
 /// The same where hardly anything that is detected looks like a vehicle: over relief, at night, in haze.
 constexpr double kErrorInDoubt = 0.45;
 /// Shares of the detections that look like vehicles: below the first of a pair fully, above the second not at all.
@@ -72,6 +74,11 @@ double ScaleOutcome::score() const {
     return decision * std::pow(alike(), kAlikePower) * std::pow((cars + 1) / (tracks + 2), kCarsPower);
 }
 
+double ScaleOutcome::scoreAmidRelief() const {
+    const double sureness = looks > 0 ? decision / looks : 0;
+    return sureness * whole_cars * std::pow((whole_cars + 1) / (whole_tracks + 2), kWholeCarsPower);
+}
+
 bool ScaleOutcome::showsTraffic() const {
     return looks >= kFewestLooks && cars >= 1;
 }
@@ -83,6 +90,8 @@ ScaleOutcome operator+(const ScaleOutcome& a, const ScaleOutcome& b) {
     both.decision += b.decision;
     both.tracks += b.tracks;
     both.cars += b.cars;
+    both.whole_tracks += b.whole_tracks;
+    both.whole_cars += b.whole_cars;
     both.in_dark += b.in_dark;
     both.car_speeds_m_s.insert(both.car_speeds_m_s.end(), b.car_speeds_m_s.begin(), b.car_speeds_m_s.end());
     return both;
@@ -92,11 +101,23 @@ bool isCarSized(double length_m, double width_m) {
     return length_m > 3.6 && length_m < 6.6 && width_m > 1.5 && width_m < 3.8;
 }
 
+void ScaleScores::add(const std::vector<ScaleOutcome>& outcomes) {
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+        all_[i] += outcomes[i].score();
+        amid_relief_[i] += outcomes[i].scoreAmidRelief();
+    }
+}
+
+const std::vector<double>& ScaleScores::of(const std::vector<ScaleOutcome>& outcomes) const {
+    const auto highest = std::max_element(amid_relief_.begin(), amid_relief_.end());
+    const ScaleOutcome& peak = outcomes[static_cast<std::size_t>(highest - amid_relief_.begin())];
+    return peak.showsTraffic() && peak.alike() < kMostlyRelief ? amid_relief_ : all_;
+}
+
 std::optional<ScaleEstimate> estimateOfScale(const std::vector<ScaleOutcome>& outcomes) {
-    std::vector<double> scores;
-    scores.reserve(outcomes.size());
-    for (const ScaleOutcome& outcome : outcomes) scores.push_back(outcome.score());
-    return estimateOfScale(outcomes, scores);
+    ScaleScores scores;
+    scores.add(outcomes);
+    return estimateOfScale(outcomes, scores.of(outcomes));
 }
 
 std::optional<ScaleEstimate> estimateOfScale(const std::vector<ScaleOutcome>& outcomes,
@@ -135,11 +156,9 @@ std::optional<ScaleEstimate> estimateOfScale(const std::vector<ScaleOutcome>& ou
 
 void LooksTogether::add(const std::vector<ScaleOutcome>& outcomes) {
     if (!estimateOfScale(outcomes)) return;
-    for (std::size_t i = 0; i < outcomes.size(); ++i) {
-        sums_[i] = sums_[i] + outcomes[i];
-        scores_[i] += outcomes[i].score();
-    }
-    if (const auto estimate = estimateOfScale(sums_, scores_)) estimate_ = estimate;
+    for (std::size_t i = 0; i < outcomes.size(); ++i) sums_[i] = sums_[i] + outcomes[i];
+    scores_.add(outcomes);
+    if (const auto estimate = estimateOfScale(sums_, scores_.of(sums_))) estimate_ = estimate;
 }
 
 bool LooksTogether::suffice() const {

@@ -26,6 +26,9 @@ struct ScaleOutcome {
     double decision = 0;  ///< sum of its decision values there
     double tracks = 0;
     double cars = 0;  ///< tracks of a car's size
+    /// Tracks that look like whole vehicles, each counting by the share of the frames in which it does …
+    double whole_tracks = 0;
+    double whole_cars = 0;  ///< … and those of a car's size among them
     /// Of those that the classifier took for whole vehicles at least once, where the frame rate is known: their speeds,
     /// m/s under the assumption.
     std::vector<double> car_speeds_m_s = {};
@@ -39,6 +42,9 @@ struct ScaleOutcome {
     /// cars do not fit the window, where it is too coarse they fall into pieces, and neither relief nor glare looks
     /// like a car at any.
     double score() const;
+    /// The same of what goes on looking like whole vehicles alone, and how sure the classifier is. Relief and haze,
+    /// which show the more the coarser the assumption is, have no say here.
+    double scoreAmidRelief() const;
     /// Whether enough looks like vehicles, and one of them is as large as a car: less is chance.
     bool showsTraffic() const;
 };
@@ -47,6 +53,19 @@ ScaleOutcome operator+(const ScaleOutcome& a, const ScaleOutcome& b);
 
 /// Whether a track of that length and width, m, is about as large as a car, as boxes have it.
 bool isCarSized(double length_m, double width_m);
+
+/// The scores by which they are compared, of the outcomes and the sums of each kind of score over several looks: those
+/// of what goes on looking like whole vehicles where these scores' best shows mostly what does not.
+class ScaleScores {
+ public:
+    void add(const std::vector<ScaleOutcome>& outcomes);
+    /// `outcomes`: the sum of all that were added.
+    const std::vector<double>& of(const std::vector<ScaleOutcome>& outcomes) const;
+
+ private:
+    std::vector<double> all_ = std::vector<double>(kScaleAssumptions);
+    std::vector<double> amid_relief_ = std::vector<double>(kScaleAssumptions);
+};
 
 /// The middle of the scores around the best one, of one outcome for each assumption. On eight clips it lay between .83
 /// and 1.21 of the truth; rather too fine than too coarse, since a scale too coarse by a tenth costs more. Nothing
@@ -71,7 +90,7 @@ class LooksTogether {
 
  private:
     std::vector<ScaleOutcome> sums_ = std::vector<ScaleOutcome>(kScaleAssumptions);
-    std::vector<double> scores_ = std::vector<double>(kScaleAssumptions);
+    ScaleScores scores_;
     std::optional<ScaleEstimate> estimate_;
 };
 

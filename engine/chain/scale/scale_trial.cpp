@@ -41,7 +41,7 @@ ScaleOutcome outcomeUnder(int count, const FrameOfLook& frame_of, const ChainOpt
                           const std::stop_token& stop, const std::function<void()>& tell) {
     struct Seen {
         std::vector<double> lengths, widths, speeds;
-        bool looked_whole = false;
+        int looked_whole = 0;  ///< frames
     };
     ScaleOutcome outcome;
     Chain chain(options, scale);
@@ -60,7 +60,7 @@ ScaleOutcome outcomeUnder(int count, const FrameOfLook& frame_of, const ChainOpt
             if (track.status != TrackStatus::confirmed) continue;
             const SceneScale here = scale.at(track.box.centre);
             Seen& seen = tracks[track.id];
-            seen.looked_whole = seen.looked_whole || looksWhole(track.box, result.detections);
+            seen.looked_whole += looksWhole(track.box, result.detections) ? 1 : 0;
             seen.lengths.push_back(here.metres(track.box.length));
             seen.widths.push_back(here.metres(track.box.width));
             seen.speeds.push_back(here.metresPerSecond(std::hypot(track.velocity.x, track.velocity.y)));
@@ -68,11 +68,14 @@ ScaleOutcome outcomeUnder(int count, const FrameOfLook& frame_of, const ChainOpt
     }
     for (auto& [id, seen] : tracks) {
         if (seen.lengths.size() < kFewestStates) continue;
+        const double whole = seen.looked_whole / static_cast<double>(count - kSettledFrames);
         ++outcome.tracks;
+        outcome.whole_tracks += whole;
         if (!isCarSized(medianOf(seen.lengths), medianOf(seen.widths))) continue;
         ++outcome.cars;
+        outcome.whole_cars += whole;
         // What relief and haze seem to move is slow.
-        if (seen.looked_whole) outcome.car_speeds_m_s.push_back(medianOf(seen.speeds));
+        if (seen.looked_whole > 0) outcome.car_speeds_m_s.push_back(medianOf(seen.speeds));
     }
     return outcome;
 }

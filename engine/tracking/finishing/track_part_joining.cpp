@@ -17,6 +17,8 @@ constexpr double kTravelled = 8;           ///< m over the ground meanwhile: sta
 constexpr double kSlowestForParts = 2.5;   ///< m/s; in slower traffic cars drive bumper to bumper
 constexpr double kPartGap = 0.6;           ///< m between parts
 constexpr double kAside = 1.0;             ///< m between the axes of parts
+constexpr double kAsideApart = 2.8;        ///< … where their boxes may reach out over it
+constexpr double kSureAlone = 0.8;         ///< score from which on a track is a vehicle, and no part of one
 constexpr double kLoose = 0.35;            ///< m by which the distance of parts scatters
 constexpr double kMostTurn = 0.35;         ///< radians
 constexpr double kPart = 3.6;              ///< m; one of the two is shorter than any car
@@ -94,12 +96,15 @@ std::optional<Whole> wholeOf(const TrackPath& leader, const TrackPath& other, co
     if (travelled < (overlap ? kTravelledCovered : kTravelled)) return {};
     if (travelled / frames < kSlowestForParts / everywhere.frame_rate_hz) return {};
     const double tolerance = kPixel * medianOf(pixels);
-    if (medianOf(gaps) > kPartGap + tolerance) return {};
-    if (!overlap && medianOf(across) > kAside + tolerance) return {};
-    if (spreadOf(along) > (overlap ? kLooseCovered : kLoose) + tolerance / 2) return {};
+    const bool apart = wanted == PartsOfVehicle::apart;
+    if (!apart && medianOf(gaps) > kPartGap + tolerance) return {};
+    if (wanted == PartsOfVehicle::in_line && medianOf(across) > kAside + tolerance) return {};
+    if (apart && medianOf(across) > kAsideApart + tolerance) return {};
+    if (spreadOf(along) > (wanted == PartsOfVehicle::in_line ? kLoose : kLooseCovered) + tolerance / 2) return {};
     const double metre = overlap && !everywhere.gsd_known ? 1 / kEstimatedShare : 1;
-    if (medianOf(parts) > kPart * metre) return {};
-    if (medianOf(lengths) > kLongest * metre || medianOf(widths) > kWidest * metre + 2 * tolerance) return {};
+    if (!apart && medianOf(parts) > kPart * metre) return {};
+    if (medianOf(lengths) > kLongest * metre) return {};
+    if (!apart && medianOf(widths) > kWidest * metre + 2 * tolerance) return {};
     return whole;
 }
 
@@ -140,6 +145,11 @@ void join(TrackPath& leader, const TrackPath& other, const Whole& whole, const S
 }
 
 }  // namespace
+
+bool mayBePartOf(const TrackPath& vehicle, const TrackPath& part, const SceneScale& scale) {
+    return part.id != vehicle.id && part.states.front().second.score < kSureAlone &&
+           wholeOf(vehicle, part, scale, PartsOfVehicle::apart).has_value();
+}
 
 void joinParts(std::vector<TrackPath>& paths, const SceneScale& scale, PartsOfVehicle wanted) {
     std::vector<std::size_t> order(paths.size());

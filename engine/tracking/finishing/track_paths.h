@@ -40,13 +40,19 @@ std::vector<TrackPath> joinFragments(std::vector<TrackPath> paths, const GroundM
 
 /// How tracks lie that are parts of one vehicle.
 enum class PartsOfVehicle {
-    in_line,     ///< one right behind the other, faster and longer than bumper to bumper traffic would
-    overlapping  ///< on each other, as the cab, the load and the wheels of a lorry that is seen from the side
+    in_line,      ///< one right behind the other, faster and longer than bumper to bumper traffic would
+    overlapping,  ///< on each other, as the cab, the load and the wheels of a lorry that is seen from the side
+    apart         ///< anywhere within the length and width of a lorry
 };
 
 /// Joins tracks that are parts of one vehicle: they drive as if fixed to each other. The longer track's id stays. Boxes
 /// that overlap must be steady, and those of shadows be gone.
 void joinParts(std::vector<TrackPath>& paths, const SceneScale& scale, PartsOfVehicle wanted);
+
+/// Whether a scored track may be a part of the vehicle of another: it drives as if fixed to it, within the length and
+/// width of a lorry, and is not surely a vehicle itself. Who keeps their distance do so, too: whether the ground lies
+/// between them tells.
+bool mayBePartOf(const TrackPath& vehicle, const TrackPath& part, const SceneScale& scale);
 
 /// Replaces lengths and widths by their weighted median over a window, on the ground: enlargement by the camera, and by
 /// the vehicle's own way towards it, is taken into account, detections count most.

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/robust_statistics.h"
+#include "tracking/finishing/shared_frames.h"
 
 namespace eyrie {
 namespace {
@@ -16,9 +17,12 @@ constexpr double kAgreeing = 1;          ///< m between ends on which looks agre
 constexpr double kShareAgreeing = 0.5;   ///< … as this share of them must
 constexpr double kCab = 2.8;             ///< m: boxes of smaller things hold no part of a lorry
 constexpr double kHoldsBox = 0.7;        ///< share of the box that belongs to the vehicle at least
-constexpr double kLonger = 1.4;          ///< than the box: less is not worth a change
+constexpr double kHoldsBoxOfPart = 0.3;  ///< … where other parts of it are followed, too
+constexpr double kLonger = 1.4;          ///< than the box: less is not worth a change …
+constexpr double kLongerWithParts = 1;   ///< … but to take in other parts
 constexpr double kLongerThanCars = 5.5;  ///< m
-constexpr double kLongest = 18;          ///< m
+constexpr double kLongestAlone = 18;     ///< m …
+constexpr double kLongest = 20;          ///< … and where other parts are followed, too
 constexpr double kWidest = 4.2;          ///< m, of the silhouette, with the side that an oblique view shows …
 constexpr double kBusSlender = 3;        ///< … or, of what is as high as a bus, wider if it is so many times as long
 constexpr double kLorryWidth = 2.6;      ///< m, as wide as lorries may be
@@ -26,7 +30,8 @@ constexpr double kSlender = 2;           ///< times as long as wide
 constexpr double kCutLooks = 0.25;       ///< share of looks in which it goes on beyond what was looked at
 constexpr double kSurelyNoShadow = 0.3;  ///< share of what lies beyond the box that is no shadow
 constexpr double kSharedLife = 0.5;      ///< of a part, in which it lies in the whole vehicle …
-constexpr double kInside = 0.8;          ///< … in this share of the frames
+constexpr double kInside = 0.8;          ///< … in this share of the frames …
+constexpr double kBeyond = 1.5;          ///< m: boxes of its ends reach out over it
 
 /// What the looks at a track say of its vehicle, m from the middle of its box.
 struct LooksAtLength {
@@ -79,7 +84,45 @@ bool agree(const LooksAtLength& looks, double rear, double front) {
     return static_cast<double>(agreeing) >= kShareAgreeing * static_cast<double>(looks.rear.size());
 }
 
-std::optional<AboutBox> longVehicleIn(const LooksAtLength& looks) {
+/// Where other tracks lie from the middle of a track's box that drive with it as if fixed, m.
+std::map<TrackId, cv::Point2d> partsBeside(const TrackPath& path, const std::vector<TrackPath>& paths,
+                                           const LivingTracks& living, const SceneScale& scale) {
+    std::map<TrackId, cv::Point2d> parts;
+    for (const std::size_t i : living.during(path.firstFrame(), path.lastFrame())) {
+        const TrackPath& other = paths[i];
+        if (!mayBePartOf(path, other, scale)) continue;
+        std::vector<double> along, across;
+        forSharedFrames(path, other, [&](const MovingState& state, const MovingState& of_other) {
+            const cv::Point2d offset = state.box.toBox(of_other.box.centre);
+            const SceneScale here = scale.at(state.box.centre);
+            along.push_back(here.metres(offset.x));
+            across.push_back(here.metres(offset.y));
+        });
+        parts[other.id] = {medianOf(std::move(along)), medianOf(std::move(across))};
+    }
+    return parts;
+}
+
+/// Whether one of those lies in what looks usually show as the vehicle.
+bool holdsOneOf(const std::map<TrackId, cv::Point2d>& parts, const LooksAtLength& looks) {
+    const double rear = medianOf(looks.rear);
+    const double front = medianOf(looks.front);
+    const double left = medianOf(looks.left);
+    const double right = medianOf(looks.right);
+    return std::any_of(parts.begin(), parts.end(), [&](const auto& part) {
+        const cv::Point2d place = part.second;
+        return place.x > rear && place.x < front && place.y > left && place.y < right;
+    });
+}
+
+/// What a long vehicle must be like, less where other tracks tell that there is one.
+struct LongVehicleLimits {
+    double holds_box = kHoldsBox;
+    double longer = kLonger;
+    double longest = kLongestAlone;
+};
+
+std::optional<AboutBox> longVehicleIn(const LooksAtLength& looks, const LongVehicleLimits& limits) {
     const std::size_t seen = looks.rear.size();
     if (seen < kFewestSeen || static_cast<double>(seen) < kShareOfLooks * static_cast<double>(looks.all)) return {};
     if (static_cast<double>(looks.cut) > kCutLooks * static_cast<double>(seen)) return {};
@@ -90,10 +133,10 @@ std::optional<AboutBox> longVehicleIn(const LooksAtLength& looks) {
     const double front = medianOf(looks.front);
     if (!agree(looks, rear, front)) return {};
     const double of_box = std::min(front, box_length / 2) - std::max(rear, -box_length / 2);
-    if (of_box <= kHoldsBox * box_length) return {};
+    if (of_box <= limits.holds_box * box_length) return {};
     const double length = front - rear;
     const double width = medianOf(looks.width);
-    if (length <= kLonger * box_length || length <= kLongerThanCars || length >= kLongest) return {};
+    if (length <= limits.longer * box_length || length <= kLongerThanCars || length >= limits.longest) return {};
     if (width >= std::max(kWidest, length / kBusSlender) || length <= kSlender * width) return {};
     const double box_width = medianOf(looks.box_width);
     const double whole_left = std::min(medianOf(looks.left), -box_width / 2);
@@ -101,6 +144,13 @@ std::optional<AboutBox> longVehicleIn(const LooksAtLength& looks) {
     const double lorry = std::min(whole_right - whole_left, std::max(box_width, kLorryWidth));
     return AboutBox{(rear + front) / 2 / box_length, (whole_left + whole_right) / 2 / box_width, length / box_length,
                     lorry / box_width};
+}
+
+/// `parts`: where other tracks lie that may be of the same vehicle, m from the middle of the box.
+std::optional<AboutBox> longVehicleIn(const LooksAtLength& looks, const std::map<TrackId, cv::Point2d>& parts) {
+    if (!looks.rear.empty() && holdsOneOf(parts, looks))
+        return longVehicleIn(looks, {kHoldsBoxOfPart, kLongerWithParts, kLongest});
+    return longVehicleIn(looks, LongVehicleLimits());
 }
 
 OrientedBox placed(const AboutBox& vehicle, const OrientedBox& box) {
@@ -131,8 +181,8 @@ void reachOver(const TimedPathState& whole, const std::vector<TimedPathState*>& 
         (*state)->second.box = placed(about, (*state)->second.box);
 }
 
-/// Whether `part` lies in the box of `whole`.
-bool isPartOf(const TrackPath& part, const TrackPath& whole) {
+/// Whether `part` lies in the box of `whole`, or, where it drives as if fixed to it, beside it.
+bool isPartOf(const TrackPath& part, const TrackPath& whole, bool fixed, const SceneScale& scale) {
     int shared = 0;
     int inside = 0;
     for (const auto& [frame, state] : part.states) {
@@ -140,26 +190,50 @@ bool isPartOf(const TrackPath& part, const TrackPath& whole) {
         if (there == nullptr) continue;
         const OrientedBox box = there->second.box;
         const cv::Point2d place = box.toBox(state.box.centre);
+        const double beyond = scale.at(box.centre).px(kBeyond);
         ++shared;
-        inside += std::abs(place.x) <= box.length / 2 && std::abs(place.y) <= box.width / 2 ? 1 : 0;
+        inside +=
+            std::abs(place.x) <= box.length / 2 + (fixed ? beyond : 0) && (fixed || std::abs(place.y) <= box.width / 2)
+                ? 1
+                : 0;
     }
     return shared >= kSharedLife * static_cast<double>(part.states.size()) && inside >= kInside * shared;
 }
 
 }  // namespace
 
-std::set<TrackId> reachWholeVehicles(std::vector<TrackPath>& paths, const std::vector<SilhouetteLook>& looks,
-                                     const std::vector<CastShadow>& shadows, const GroundTurns& turns,
-                                     const SceneScale& scale) {
+PartsByVehicle reachWholeVehicles(std::vector<TrackPath>& paths, const std::vector<SilhouetteLook>& looks,
+                                  const std::vector<CastShadow>& shadows, const GroundTurns& turns,
+                                  const SceneScale& scale) {
     const std::map<TrackId, LooksAtLength> by_track = looksByTrack(looks, shadows, turns, scale);
-    std::set<TrackId> longer;
-    for (TrackPath& path : paths) {
+    LivingTracks living;
+    for (std::size_t i = 0; i < paths.size(); ++i) living.add(i, paths[i].firstFrame(), paths[i].lastFrame());
+    std::map<TrackId, AboutBox> long_ones;
+    PartsByVehicle longer;
+    for (const TrackPath& path : paths) {
         const auto of_track = by_track.find(path.id);
         if (of_track == by_track.end()) continue;
-        const auto vehicle = longVehicleIn(of_track->second);
+        if (getenv("LVD")) {
+            const auto& l = of_track->second;
+            const auto med = [](std::vector<double> v) { return v.empty() ? 0.0 : medianOf(v); };
+            fprintf(stderr,
+                    "LV %ld score %.2f all %zu seen %zu cut %zu lit %.2f box %.1fx%.1f rear %.1f front %.1f l %.1f r "
+                    "%.1f w %.1f agree %d of_box\n",
+                    static_cast<long>(path.id), path.states.front().second.score, l.all, l.rear.size(), l.cut,
+                    med(l.no_shadow), med(l.box_length), med(l.box_width), med(l.rear), med(l.front), med(l.left),
+                    med(l.right), med(l.width), l.rear.empty() ? 0 : agree(l, med(l.rear), med(l.front)));
+        }
+        const std::map<TrackId, cv::Point2d> parts = partsBeside(path, paths, living, scale);
+        const auto vehicle = longVehicleIn(of_track->second, parts);
         if (!vehicle) continue;
-        longer.insert(path.id);
-        for (auto& [frame, state] : path.states) state.box = placed(*vehicle, state.box);
+        long_ones[path.id] = *vehicle;
+        for (const auto& [part, place] : parts) longer[path.id].insert(part);
+        longer[path.id].insert(path.id);
+    }
+    for (TrackPath& path : paths) {
+        const auto vehicle = long_ones.find(path.id);
+        if (vehicle == long_ones.end()) continue;
+        for (auto& [frame, state] : path.states) state.box = placed(vehicle->second, state.box);
     }
     return longer;
 }
@@ -186,11 +260,17 @@ void reachAlong(TrackPath& path, const std::vector<FrameSpan>& whole, const Grou
     if (last_whole != nullptr) reachOver(*last_whole, fragment, ground);
 }
 
-void dropPartsOf(const std::set<TrackId>& whole, std::vector<TrackPath>& paths, DropList& dropped) {
+void dropPartsOf(const PartsByVehicle& whole, std::vector<TrackPath>& paths, const SceneScale& scale,
+                 DropList& dropped) {
+    const auto rank = [](const TrackPath& path) { return std::pair(path.states.front().second.score, -path.id); };
     for (const TrackPath& vehicle : paths) {
-        if (!whole.contains(vehicle.id)) continue;
+        const auto parts = whole.find(vehicle.id);
+        if (parts == whole.end()) continue;
         for (TrackPath& path : paths) {
-            if (whole.contains(path.id) || path.states.empty() || !isPartOf(path, vehicle)) continue;
+            if (path.id == vehicle.id || path.states.empty() || vehicle.states.empty()) continue;
+            // Of two that were made as long the surer one stays.
+            if (whole.contains(path.id) && rank(path) > rank(vehicle)) continue;
+            if (!isPartOf(path, vehicle, parts->second.contains(path.id), scale)) continue;
             drop(path, TrackDrop::shares_place, dropped, vehicle.id);
         }
     }

@@ -1,6 +1,7 @@
 #include "tracking/pictures/picture_finishing.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
 #include <utility>
@@ -63,8 +64,10 @@ TakenUp followOn(FinishedTracks& finished, const GroundMotion& ground, const Fin
 void makeWhole(FinishedTracks& finished, std::vector<SilhouetteLook>& looks, const std::vector<CastShadow>& shadows,
                const GroundTurns& turns, const GroundMotion& ground, const FinishingOptions& options,
                const SceneScale& scale) {
-    const std::set<TrackId> longer = reachWholeVehicles(finished.paths, looks, shadows, turns, scale);
-    if (longer.empty()) return;
+    const PartsByVehicle parts = reachWholeVehicles(finished.paths, looks, shadows, turns, scale);
+    if (parts.empty()) return;
+    std::set<TrackId> longer;
+    for (const auto& [id, of_vehicle] : parts) longer.insert(id);
     std::vector<std::pair<FrameSpan, TrackId>> spans;
     for (const TrackPath& path : finished.paths) {
         if (longer.contains(path.id)) spans.push_back({{path.firstFrame(), path.lastFrame()}, path.id});
@@ -76,9 +79,11 @@ void makeWhole(FinishedTracks& finished, std::vector<SilhouetteLook>& looks, con
     for (TrackPath& path : finished.paths) {
         if (const auto of_path = whole.find(path.id); of_path != whole.end()) reachAlong(path, of_path->second, ground);
     }
-    std::set<TrackId> lorries;
-    for (const auto& [id, of_path] : whole) lorries.insert(id);
-    dropPartsOf(lorries, finished.paths, finished.dropped);
+    PartsByVehicle lorries;
+    for (const auto& [id, of_vehicle] : parts) {
+        for (const TrackId part : of_vehicle) lorries[ownerOf(taken_up, id)].insert(ownerOf(taken_up, part));
+    }
+    dropPartsOf(lorries, finished.paths, scale, finished.dropped);
     std::erase_if(looks, [&](const SilhouetteLook& look) { return lorries.contains(ownerOf(taken_up, look.track)); });
 }
 
@@ -90,6 +95,13 @@ GroundTurns turnsOf(const std::vector<TrackPath>& paths, const GroundMotion& gro
         last = std::max(last, path.lastFrame());
     }
     return GroundTurns(ground, first, last, std::max(1, framesOf(kLongestStretch, scale)));
+}
+
+std::vector<SilhouetteLook> sureOnes(const std::vector<SilhouetteLook>& looks) {
+    std::vector<SilhouetteLook> sure;
+    std::copy_if(looks.begin(), looks.end(), std::back_inserter(sure),
+                 [](const SilhouetteLook& look) { return look.sure; });
+    return sure;
 }
 
 }  // namespace
@@ -114,20 +126,24 @@ void finishByPictures(FinishedTracks& finished, const GroundMotion& ground, cons
         search.show(frame, gray);
         return gray;
     });
-    std::vector<SilhouetteLook> looks = search.finish(gray_at);
-    for (SilhouetteLook& look : looks) look.track = ownerOf(taken_up, look.track);
+    std::vector<SilhouetteLook> all_looks = search.finish(gray_at);
+    for (SilhouetteLook& look : all_looks) look.track = ownerOf(taken_up, look.track);
     const GroundTurns turns = turnsOf(paths, ground, scale);
+    std::vector<SilhouetteLook> looks = sureOnes(all_looks);
     const std::vector<StretchLight> light = readLight(looks, turns, scale);
     const std::vector<CastShadow> shadows = shadowsOf(light);
     // Where the sun casts shadows headlights light nothing, and what seems to be lit ahead is a bright vehicle.
     const bool dark = shadows.empty() && driveWithHeadlights(looks);
     const std::size_t dropped_before = finished.dropped.size();
     if (options.drop_shadows && options.trim_shadows)
-        dropShadowTracks(paths, looks, shadows, turns, scale, finished.dropped);
+        dropShadowTracks(paths, all_looks, shadows, turns, scale, finished.dropped);
     std::vector<TrackPath> mere_shadows;
     for (std::size_t i = dropped_before; i < finished.dropped.size(); ++i)
         mere_shadows.push_back(finished.dropped[i].path);
-    if (options.whole_lorries && !dark) makeWhole(finished, looks, shadows, turns, ground, options, scale);
+    if (options.whole_lorries && !dark) {
+        makeWhole(finished, all_looks, shadows, turns, ground, options, scale);
+        looks = sureOnes(all_looks);
+    }
     if (!options.trim_shadows) {
         finished.light = untoldLight(paths, LightOutcome::switched_off);
         return;

@@ -11,6 +11,7 @@ namespace eyrie {
 namespace {
 
 constexpr double kAlong = 9;           ///< m before and behind the box: a lorry of which one end is in it …
+constexpr double kAlongParts = 14;     ///< … the longest ones where other parts are followed, too …
 constexpr double kAcross = 1.2;        ///< … and to its sides
 constexpr double kStep = 0.15;         ///< m, at least half a pixel
 constexpr double kAboutOthers = 0.5;   ///< m: boxes end a little before or behind the vehicle
@@ -18,8 +19,9 @@ constexpr double kBeyondTheBox = 0.3;  ///< m
 
 }  // namespace
 
-ExtentGrid::ExtentGrid(const OrientedBox& box, double metre)
-    : grid_(box, kAlong * metre, kAcross * metre, std::max(0.5, kStep * metre)), metre_(metre) {}
+ExtentGrid::ExtentGrid(const OrientedBox& box, double metre, bool has_parts)
+    : grid_(box, (has_parts ? kAlongParts : kAlong) * metre, kAcross * metre, std::max(0.5, kStep * metre)),
+      metre_(metre) {}
 
 bool ExtentGrid::mayReach(const OrientedBox& box, const cv::Matx33d& picture_from_here) const {
     const HomographyJacobian there(picture_from_here, grid_.box().centre);

@@ -25,8 +25,8 @@ class ExtentGrid {
         cv::Mat gray, unknown;
     };
 
-    /// `metre`: px there.
-    ExtentGrid(const OrientedBox& box, double metre);
+    /// `metre`: px there; `has_parts`: other tracks may be of the same vehicle, which is a long one then.
+    ExtentGrid(const OrientedBox& box, double metre, bool has_parts);
 
     /// `picture_from_here` takes the places into the picture (CV_8UC1); `others`: boxes of other vehicles in it, which
     /// hide what they cover, and the ground close about them unless they are beside the vehicle itself.

@@ -9,13 +9,15 @@
 #include "core/values/last_frame.h"
 #include "imaging/picture_darkness.h"
 #include "tracking/finishing/frames_of.h"
+#include "tracking/finishing/shared_frames.h"
 #include "tracking/finishing/track_occupancy.h"
 
 namespace eyrie {
 namespace {
 
-constexpr double kSureVehicle = 0.5;    ///< score of tracks that are looked at
-constexpr std::size_t kLooks = 12;      ///< at most, a track
+constexpr double kSureVehicle = 0.5;   ///< score …
+constexpr double kMaybeVehicle = 0.2;  ///< … and of tracks that are looked at: parts and shadows are no sure vehicles
+constexpr std::size_t kLooks = 12;     ///< at most, a track
 constexpr double kPicturesApart = 0.1;  ///< s; so that few pictures are read
 constexpr double kGroundWithin = 3;     ///< s before and after: later the light and the registration are others
 constexpr int kGroundsASide = 2;
@@ -33,18 +35,23 @@ class SilhouetteSearch::Plan {
           scale_(scale),
           taken_(paths),
           apart_(std::max(1, framesOf(kPicturesApart, scale))),
-          within_(framesOf(kGroundWithin, scale)) {}
+          within_(framesOf(kGroundWithin, scale)) {
+        for (std::size_t i = 0; i < paths.size(); ++i) living_.add(i, paths[i].firstFrame(), paths[i].lastFrame());
+    }
 
     std::vector<Planned> looks() const {
         std::vector<Planned> looks;
         for (const TrackPath& path : paths_) {
-            if (path.states.front().second.score < kSureVehicle) continue;
+            const double score = path.states.front().second.score;
+            if (score < kMaybeVehicle) continue;
+            const auto parts = partsBeside(path);
             for (const TimedPathState* state : momentsOf(path)) {
                 const OrientedBox box = state->second.box;
                 const double metre = scale_.at(box.centre).px(1);
-                Planned look{{path.id, state->first, box, 0, 0, 0, {}, {}},
+                Planned look{{path.id, score >= kSureVehicle, state->first, box, 0, 0, 0, {}, {}},
+                             parts,
                              SilhouetteGrid(box, kMarginAbout * metre, std::max(0.5, kGridStep * metre)),
-                             ExtentGrid(box, metre),
+                             ExtentGrid(box, metre, !parts->empty()),
                              {}};
                 addGrounds(look, path, -1);
                 addGrounds(look, path, 1);
@@ -58,6 +65,16 @@ class SilhouetteSearch::Plan {
     }
 
  private:
+    /// Tracks that may be of the same vehicle.
+    std::shared_ptr<const std::set<TrackId>> partsBeside(const TrackPath& path) const {
+        auto parts = std::make_shared<std::set<TrackId>>();
+        for (const std::size_t i : living_.during(path.firstFrame(), path.lastFrame())) {
+            const TrackPath& other = paths_[i];
+            if (mayBePartOf(path, other, scale_)) parts->insert(other.id);
+        }
+        return parts;
+    }
+
     std::vector<const TimedPathState*> momentsOf(const TrackPath& path) const {
         std::vector<const TimedPathState*> all;
         for (const TimedPathState& state : path.states) {
@@ -102,6 +119,7 @@ class SilhouetteSearch::Plan {
     const std::vector<TrackPath>& paths_;
     const GroundMotion& ground_;
     const SceneScale& scale_;
+    LivingTracks living_;
     TrackOccupancy taken_;
     int apart_;   ///< frames between pictures that are read
     int within_;  ///< frames
@@ -146,8 +164,9 @@ void SilhouetteSearch::take(Planned& planned, FrameIndex frame, const cv::Mat& g
     const bool shows_vehicle = frame == planned.look.frame;
     std::vector<OrientedBox> others;
     for (const TrackBox& each : boxes) {
-        // Who is not sure may be a part of the vehicle itself.
-        const bool is_other = each.track != planned.look.track && each.score >= kSureVehicle;
+        // Who is not sure may be a part of the vehicle itself, too.
+        const bool is_other =
+            each.track != planned.look.track && each.score >= kSureVehicle && !planned.parts->contains(each.track);
         if (is_other || !shows_vehicle) others.emplace_back(each.box);
     }
     if (!gray.empty() && shows_vehicle) {

@@ -2,8 +2,10 @@
 
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <opencv2/core/mat.hpp>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -17,6 +19,7 @@ namespace eyrie {
 /// What a track's box shows in one picture against the same ground without it.
 struct SilhouetteLook {
     TrackId track = 0;
+    bool sure = true;  ///< its track is surely a vehicle by its score
     FrameIndex frame = 0;
     OrientedBox box;                       ///< of its state
     double shaded = 0;                     ///< share of the box in which it is as a shadow on the ground would be
@@ -30,7 +33,7 @@ struct SilhouetteLook {
 std::map<TrackId, double> usualByTrack(const std::vector<SilhouetteLook>& looks, double SilhouetteLook::*figure,
                                        std::size_t fewest_looks);
 
-/// Looks at the vehicles of sure tracks, each at some moments of its life spread over it, beside pictures from before
+/// Looks at the vehicles of tracks, each at some moments of its life spread over it, beside pictures from before
 /// and after in which no track covers the ground there. It is shown each picture that it needs once, in ascending
 /// order, and keeps of them what it compares only.
 class SilhouetteSearch {
@@ -55,6 +58,7 @@ class SilhouetteSearch {
     /// A look of which not all pictures have come.
     struct Planned {
         SilhouetteLook look;
+        std::shared_ptr<const std::set<TrackId>> parts;  ///< tracks that may be of the same vehicle
         SilhouetteGrid grid;
         ExtentGrid extents;
         std::vector<Ground> grounds = {};

@@ -55,11 +55,12 @@ struct Looks {
         GroundMotion ground;
         for (FrameIndex frame = 0; frame < 30; ++frame) ground.add(test::summaryOfFrame(frame));
         const GroundTurns turns(ground, 0, 29);
-        const std::set<TrackId> longer = reachWholeVehicles(paths, looks, shadows, turns, kScale);
+        const PartsByVehicle longer = reachWholeVehicles(paths, looks, shadows, turns, kScale);
         EXPECT_FLOAT_EQ(paths[1].states[0].second.box.length, 4 * kMetre) << "nobody looked at it";
         EXPECT_FLOAT_EQ(paths[0].states[0].second.box.length, paths[0].states[29].second.box.length);
         const OrientedBox box = paths[0].states[0].second.box;
-        EXPECT_EQ(longer, box.length > 4 * kMetre ? std::set<TrackId>{1} : std::set<TrackId>{});
+        const PartsByVehicle itself{{1, {1}}};
+        EXPECT_EQ(longer, box.length > 4 * kMetre ? itself : PartsByVehicle());
         return {(box.centre - cv::Point2d(100, 60)) / kMetre, box.length / kMetre, box.width / kMetre, box.heading};
     }
     bool changes() const { return box().length > 4.001; }
@@ -201,11 +202,58 @@ TEST(LongVehicles, WhatIsLongerAlreadyAndWhatLiesBetweenTwoSpansIsReachedFromThe
     EXPECT_NEAR(path.states[27].second.box.length, 70, 1e-3);
 }
 
+/// What becomes of a lorry whose front, of 4 m, is followed as track 1 and looked at, and of which `behind` (m) its
+/// front another track may be a part.
+struct LorryInParts {
+    double behind = 8;
+    float score = 0.5F;
+    cv::Point2d apart{0, 0};  ///< px by which the other one falls behind each frame
+
+    /// Its box, m, and which tracks it holds.
+    std::pair<OrientedBox, std::set<TrackId>> seenAs(double rear, double front) const {
+        const Looks looks = Looks().add(6, rear, front);
+        std::vector<TrackPath> paths{pathOf(1, 60), pathOf(2, 60, {100 - behind * kMetre, 60})};
+        for (TrackPath& path : paths) {
+            for (auto& [frame, state] : path.states) state.velocity = {2, 0};
+        }
+        for (auto& [frame, state] : paths[1].states) {
+            state.score = score;
+            state.box.centre -= cv::Point2f(apart * static_cast<double>(frame));
+        }
+        GroundMotion ground;
+        for (FrameIndex frame = 0; frame < 60; ++frame) ground.add(test::summaryOfFrame(frame));
+        const GroundTurns turns(ground, 0, 59);
+        const PartsByVehicle parts = reachWholeVehicles(paths, looks.looks, looks.shadows, turns, kScale);
+        const OrientedBox box = paths[0].states[0].second.box;
+        return {{(box.centre - cv::Point2d(100, 60)) / kMetre, box.length / kMetre, box.width / kMetre, box.heading},
+                parts.contains(1) ? parts.at(1) : std::set<TrackId>{}};
+    }
+    bool isSeenWhole(double rear, double front) const { return seenAs(rear, front).second.contains(2); }
+};
+
+TEST(LongVehicles, OtherPartsTellThatItIsOneHoweverLittleOfItTheBoxHolds) {
+    const auto [box, parts] = LorryInParts().seenAs(-17, 2);
+    EXPECT_EQ(parts, (std::set<TrackId>{1, 2}));
+    EXPECT_NEAR(box.length, 19, 1e-3) << "the longest ones";
+    EXPECT_NEAR(box.centre.x, -7.5, 1e-3);
+    EXPECT_FALSE(LorryInParts().isSeenWhole(-18.1, 2));
+    EXPECT_TRUE(LorryInParts().isSeenWhole(-12, -0.7)) << "the box reaches out over it";
+    EXPECT_FALSE(LorryInParts().isSeenWhole(-12, -0.9));
+    EXPECT_TRUE((LorryInParts{3, 0.5F, {}}.isSeenWhole(-3.5, 2.1))) << "5.6 m, but two tracks";
+    EXPECT_FALSE((LorryInParts{3, 0.5F, {}}.isSeenWhole(-3.3, 2.1))) << "a car";
+}
+
+TEST(LongVehicles, WhatDrivesByItselfOrLiesElsewhereIsNoPart) {
+    EXPECT_FALSE((LorryInParts{8, 0.85F, {}}.isSeenWhole(-17, 2))) << "it is surely a vehicle itself";
+    EXPECT_FALSE((LorryInParts{8, 0.5F, {0.2, 0}}.isSeenWhole(-17, 2))) << "it falls behind";
+    EXPECT_FALSE((LorryInParts{14, 0.5F, {}}.isSeenWhole(-13.5, -0.7))) << "behind it, and the box reaches out ahead";
+}
+
 TEST(LongVehicles, TracksOfTheirPartsGo) {
-    const auto left = [](const TrackPath& part) {
+    const auto left = [](const TrackPath& part, const std::set<TrackId>& fixed = {1}) {
         std::vector<TrackPath> paths{pathOf(1, 30), part};
         DropList dropped;
-        dropPartsOf({1}, paths, dropped);
+        dropPartsOf({{1, fixed}}, paths, kScale, dropped);
         EXPECT_EQ(paths.size() + dropped.size(), 2U);
         if (!dropped.empty()) {
             EXPECT_EQ(dropped[0].path.id, part.id);
@@ -217,6 +265,9 @@ TEST(LongVehicles, TracksOfTheirPartsGo) {
     EXPECT_FALSE(left(pathOf(2, 30, {109, 64})));
     EXPECT_TRUE(left(pathOf(2, 30, {111, 64}))) << "ahead of it";
     EXPECT_TRUE(left(pathOf(2, 30, {109, 66}))) << "beside it";
+    // Such as drive as if fixed to it reach out over its ends, by 7.5 px, and its sides.
+    EXPECT_FALSE(left(pathOf(2, 30, {117, 70}), {1, 2}));
+    EXPECT_TRUE(left(pathOf(2, 30, {118, 60}), {1, 2})) << "ahead of it";
     EXPECT_FALSE(left(pathOf(2, 20, {100, 60}, 20))) << "half of its life it lies in it";
     EXPECT_TRUE(left(pathOf(2, 21, {100, 60}, 20)));
     EXPECT_TRUE(left(pathOf(2, 20, {100, 60}, 40))) << "later";
@@ -227,11 +278,17 @@ TEST(LongVehicles, TracksOfTheirPartsGo) {
     EXPECT_FALSE(left(passes));
 }
 
-TEST(LongVehicles, WhollySeenOnesDoNotGoForEachOther) {
-    std::vector<TrackPath> paths{pathOf(1, 30), pathOf(2, 30)};
-    DropList dropped;
-    dropPartsOf({1, 2}, paths, dropped);
-    EXPECT_EQ(paths.size(), 2U);
+TEST(LongVehicles, OfTwoThatWereMadeAsLongAtOnePlaceTheSurerOneStays) {
+    for (const bool first_is_surer : {true, false}) {
+        std::vector<TrackPath> paths{pathOf(1, 30), pathOf(2, 30), pathOf(3, 30, {100, 90})};
+        for (auto& [frame, state] : paths[first_is_surer ? 1 : 0].states) state.score = 0.8F;
+        DropList dropped;
+        dropPartsOf({{1, {1}}, {2, {2}}, {3, {3}}}, paths, kScale, dropped);
+        ASSERT_EQ(paths.size(), 2U);
+        EXPECT_EQ(paths[0].id, first_is_surer ? 1 : 2);
+        EXPECT_EQ(paths[1].id, 3) << "beside it";
+        EXPECT_EQ(dropped.at(0).beside, paths[0].id);
+    }
 }
 
 }  // namespace eyrie::long_vehicles_test

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kMetre = 5;  // px
 const OrientedBox kCab{{150, 60}, 24, 12, 0};
-const ExtentGrid kGrid(kCab, kMetre);
+const ExtentGrid kGrid(kCab, kMetre, false);
 const cv::Rect kLorry(102, 54, 60, 12);  ///< from 48 px behind the middle of the cab to 12 px ahead of it
 const cv::Matx33d kHere = cv::Matx33d::eye();
 
@@ -59,7 +59,7 @@ TEST(ExtentGrid, TurnsWithTheBox) {
     cv::Mat bare;
     cv::rotate(road(), bare, cv::ROTATE_90_CLOCKWISE);
     const OrientedBox down{{119.0 - 60, 150}, 24, 12, CV_PI / 2};
-    const ExtentGrid grid(down, kMetre);
+    const ExtentGrid grid(down, kMetre, false);
     const auto extent = grid.compare(grid.sampled(turned, kHere, {}, true), {grid.sampled(bare, kHere, {}, false)});
     ASSERT_TRUE(extent);
     EXPECT_NEAR(extent->whole.rear, -48, 1.1);
@@ -112,7 +112,7 @@ TEST(ExtentGrid, LeavesOutWhatGroundSaysNothingOf) {
 
 TEST(ExtentGrid, PlacesBeyondThePictureSayNothing) {
     const OrientedBox near_border{{20, 60}, 24, 12, 0};
-    const ExtentGrid grid(near_border, kMetre);
+    const ExtentGrid grid(near_border, kMetre, false);
     const auto extent = grid.compare(grid.sampled(with(road(), {0, 54, 32, 12}, 230), kHere, {}, true),
                                      {grid.sampled(road(), kHere, {}, false)});
     ASSERT_TRUE(extent);

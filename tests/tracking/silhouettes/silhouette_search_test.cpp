@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "tracking/frame_summaries.h"
@@ -128,15 +129,44 @@ TEST(SilhouetteSearch, ComparesWithTheNearestTwoPicturesBeforeAndAfter) {
     EXPECT_EQ(road.asked, (Frames{27, 28, 29, 30, 31, 32, 33}));
 }
 
-TEST(SilhouetteSearch, LooksAtSureVehiclesWhereTheyWereDetected) {
+TEST(SilhouetteSearch, LooksAtTracksWhereTheyWereDetectedAndTellsWhichAreSurelyVehicles) {
     PlainRoad road;
     road.add(1, range(29, 31), at(100, 90), 0.45);
     road.add(2, range(29, 31), at(300, 90), 0.55);
     road.add(3, range(29, 31), at(500, 90));
+    road.add(4, range(29, 31), at(100, 30), 0.15);
     road.paths[2].states[1].second.origin = StateOrigin::reconstructed;
     const auto looks = road.looks();
-    ASSERT_EQ(looks.size(), 1U);
-    EXPECT_EQ(looks[0].track, 2);
+    ASSERT_EQ(looks.size(), 2U);
+    EXPECT_EQ(looks[0].track, 1);
+    EXPECT_FALSE(looks[0].sure);
+    EXPECT_EQ(looks[1].track, 2);
+    EXPECT_TRUE(looks[1].sure);
+}
+
+TEST(SilhouetteSearch, SeesALorryThatIsFollowedInPartsAsOne) {
+    // Both ends of 14 m are followed; what lies between them is as bright. The rear may be a part by its score, or not.
+    const auto lengthSeen = [](double score_of_rear) {
+        PlainRoad road;
+        const auto drives = [](int ahead) {
+            return [=](FrameIndex frame) { return cv::Point(40 + ahead + 4 * frame, 90); };
+        };
+        road.add(1, range(30, 90), drives(46));
+        road.add(2, range(30, 90), drives(0), score_of_rear);
+        road.add(9, range(30, 90), drives(23), 0.1);
+        for (TrackPath& path : road.paths) {
+            for (auto& [frame, state] : path.states) state.velocity = {4, 0};
+        }
+        std::vector<double> lengths;
+        for (const SilhouetteLook& look : road.looks()) {
+            if (look.track == 1 && look.extent) lengths.push_back(look.extent->whole.length());
+        }
+        EXPECT_GE(lengths.size(), 10U);
+        std::sort(lengths.begin(), lengths.end());
+        return lengths.at(lengths.size() / 2);
+    };
+    EXPECT_NEAR(lengthSeen(0.7), 70, 2);
+    EXPECT_LT(lengthSeen(0.9), 50) << "a vehicle of its own ends where it begins";
 }
 
 TEST(SilhouetteSearch, ComparesWithNoGroundThatATrackIsNear) {
