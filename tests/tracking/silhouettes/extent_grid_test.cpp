@@ -52,6 +52,18 @@ TEST(ExtentGrid, ReachesTheWholeLorryOfWhichTheBoxHoldsTheCab) {
     EXPECT_FALSE(extent->cut);
 }
 
+TEST(ExtentGrid, ReachesTheLongestLorriesWhereOtherPartsOfThemAreFollowed) {
+    // 9 m, and 14 m, beyond the cab's box.
+    const cv::Rect longest(70, 54, 92, 12);
+    EXPECT_TRUE(extentOf(with(road(), longest, 230))->cut);
+    const ExtentGrid grid(kCab, kMetre, true);
+    const auto extent = grid.compare(grid.sampled(with(road(), longest, 230), kHere, {}, true),
+                                     {grid.sampled(road(), kHere, {}, false)});
+    ASSERT_TRUE(extent);
+    EXPECT_NEAR(extent->whole.rear, -80, 1.1);
+    EXPECT_FALSE(extent->cut);
+}
+
 TEST(ExtentGrid, TurnsWithTheBox) {
     cv::Mat picture = road();
     cv::Mat turned;
