@@ -247,6 +247,17 @@ TEST(PictureFinishing, TellsHowShadowsFallAndWhatWasTakenOutOfWhichBoxes) {
     }
 }
 
+TEST(PictureFinishing, WhoIsNoSureVehicleSaysNothingOfShadows) {
+    SunnyLanes lanes;
+    for (const std::size_t unsure : {0U, 3U}) {
+        for (auto& [frame, state] : lanes.finished.paths[unsure].states) state.score = 0.45F;
+    }
+    lanes.finish({});
+    ASSERT_EQ(lanes.finished.light.findings.size(), 1U);
+    EXPECT_EQ(lanes.finished.light.findings[0].outcome, LightOutcome::few_vehicles);
+    EXPECT_EQ(lanes.finished.light.findings[0].vehicles, 3);
+}
+
 TEST(PictureFinishing, TellsWhyShadowsWereNotLookedFor) {
     const auto outcomeOf = [](const SunnyLanes& lanes) { return lanes.finished.light.findings.at(0).outcome; };
     SunnyLanes unknown;
