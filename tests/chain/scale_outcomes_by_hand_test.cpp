@@ -91,14 +91,15 @@ TEST(ScaleOutcomes, WhereMostOfWhatIsDetectedIsReliefItHasNoSay) {
 
 TEST(ScaleOutcomes, FromThreeOfTenDetectionsOnThatLookLikeVehiclesTheirShareCounts) {
     // Half as much goes on looking like a car under the finer assumption, which shows little else.
-    const auto vehicles = [](double detections) {
+    const auto vehicles = [](double detections, std::size_t coarser = 4) {
         std::vector<ScaleOutcome> outcomes(kScaleAssumptions);
         outcomes.at(1) = {30, 30, 270, 5, 5, 3, 3};
-        outcomes.at(4) = {detections, 30, 270, 30, 7, 6, 6};
+        outcomes.at(coarser) = {detections, 30, 270, 30, 7, 6, 6};
         return estimateOfScale(outcomes).value().vehicles;
     };
     EXPECT_EQ(vehicles(99), 5);
     EXPECT_EQ(vehicles(101), 7);
+    EXPECT_EQ(vehicles(101, 0), 5) << "a finer one is not believed";
 }
 
 TEST(ScaleOutcomes, InTheDarkSizesAreThoseOfVehiclesWithWhatTheyLight) {

@@ -17,7 +17,8 @@ constexpr double kStep = 1.4;     ///< from one assumption to the next
 constexpr double kAlikePower = 0.75;
 constexpr double kCarsPower = 4;
 constexpr double kWholeCarsPower = 3;  ///< of the share of cars in what goes on looking like whole vehicles
-constexpr double kMostlyRelief = 0.3;  ///< share of the detections below which only such tracks count
+constexpr double kMostlyRelief = 0.3;  ///< share of the detections below which such tracks may say otherwise …
+constexpr double kMuchCoarser = 1.3;   ///< … by this factor at least
 constexpr double kFewestLooks = 8;     ///< sure windows under the best assumption; fewer are chance
 constexpr int kReach = 2;              ///< assumptions on both sides of the best one that have a say
 constexpr double kOwnError = 0.11;     ///< standard error of the logarithm where very many vehicles drive
@@ -54,6 +55,46 @@ LogOfScale combined(const LogOfScale& a, const LogOfScale& b) {
 
 double partBelow(double share, const std::pair<double, double>& limits) {
     return std::clamp((limits.second - share) / (limits.second - limits.first), 0.0, 1.0);
+}
+
+/// What outcomes tell by some scores of them.
+std::optional<ScaleEstimate> estimateBy(const std::vector<double>& scores, const std::vector<ScaleOutcome>& outcomes) {
+    const auto highest = std::max_element(scores.begin(), scores.end());
+    const auto best = static_cast<int>(highest - scores.begin());
+    const ScaleOutcome& peak = outcomes[static_cast<std::size_t>(best)];
+    if (!peak.showsTraffic()) return std::nullopt;
+    double weights = 0;
+    double sum = 0;
+    double squares = 0;
+    for (int i = std::max(0, best - kReach); i <= std::min(kScaleAssumptions - 1, best + kReach); ++i) {
+        const double share = scores[static_cast<std::size_t>(i)] / *highest;
+        const double weight = share * share;
+        const double place = std::log(assumedGsd(i));
+        weights += weight;
+        sum += weight * place;
+        squares += weight * place * place;
+    }
+    const double middle = sum / weights;
+    const double spread = squares / weights - middle * middle + kStepVariance;
+    const double doubt = partBelow(peak.alike(), kDoubted);
+    const double by_sizes = middle + doubt * kLargerInDoubt + peak.darkness() * kLargerInDark;
+    const double drawn = kDrawnBy * partBelow(peak.alike(), kDrawn);
+    const double own_error = kOwnError + doubt * (kErrorInDoubt - kOwnError);
+    LogOfScale scale{by_sizes + drawn * (std::log(SceneScale().gsd_m_per_px) - by_sizes),
+                     own_error * own_error + spread / peak.cars};
+    const double fast = peak.car_speeds_m_s.empty() ? 0 : quantileOf(peak.car_speeds_m_s, kFast);
+    if (fast > 0) {
+        const double as_in_town = assumedGsd(best) * kTownSpeed / fast;
+        scale = combined(scale, {std::log(as_in_town), kSpeedError * kSpeedError});
+    }
+    return ScaleEstimate{std::exp(scale.value), std::exp(kSure * std::sqrt(scale.variance)),
+                         static_cast<int>(peak.cars)};
+}
+
+/// Whether most of what is detected under the assumption that scores highest looks like no vehicle.
+bool isAmidRelief(const std::vector<double>& scores, const std::vector<ScaleOutcome>& outcomes) {
+    const auto highest = std::max_element(scores.begin(), scores.end());
+    return outcomes[static_cast<std::size_t>(highest - scores.begin())].alike() < kMostlyRelief;
 }
 
 }  // namespace
@@ -108,57 +149,24 @@ void ScaleScores::add(const std::vector<ScaleOutcome>& outcomes) {
     }
 }
 
-const std::vector<double>& ScaleScores::of(const std::vector<ScaleOutcome>& outcomes) const {
-    const auto highest = std::max_element(amid_relief_.begin(), amid_relief_.end());
-    const ScaleOutcome& peak = outcomes[static_cast<std::size_t>(highest - amid_relief_.begin())];
-    return peak.showsTraffic() && peak.alike() < kMostlyRelief ? amid_relief_ : all_;
+std::optional<ScaleEstimate> ScaleScores::estimate(const std::vector<ScaleOutcome>& sums) const {
+    const auto usual = estimateBy(all_, sums);
+    if (!usual || !isAmidRelief(amid_relief_, sums)) return usual;
+    const auto coarser = estimateBy(amid_relief_, sums);
+    return coarser && coarser->gsd_m_per_px > kMuchCoarser * usual->gsd_m_per_px ? coarser : usual;
 }
 
 std::optional<ScaleEstimate> estimateOfScale(const std::vector<ScaleOutcome>& outcomes) {
     ScaleScores scores;
     scores.add(outcomes);
-    return estimateOfScale(outcomes, scores.of(outcomes));
-}
-
-std::optional<ScaleEstimate> estimateOfScale(const std::vector<ScaleOutcome>& outcomes,
-                                             const std::vector<double>& scores) {
-    const auto highest = std::max_element(scores.begin(), scores.end());
-    const auto best = static_cast<int>(highest - scores.begin());
-    const ScaleOutcome& peak = outcomes[static_cast<std::size_t>(best)];
-    if (!peak.showsTraffic()) return std::nullopt;
-    double weights = 0;
-    double sum = 0;
-    double squares = 0;
-    for (int i = std::max(0, best - kReach); i <= std::min(kScaleAssumptions - 1, best + kReach); ++i) {
-        const double share = scores[static_cast<std::size_t>(i)] / *highest;
-        const double weight = share * share;
-        const double place = std::log(assumedGsd(i));
-        weights += weight;
-        sum += weight * place;
-        squares += weight * place * place;
-    }
-    const double middle = sum / weights;
-    const double spread = squares / weights - middle * middle + kStepVariance;
-    const double doubt = partBelow(peak.alike(), kDoubted);
-    const double by_sizes = middle + doubt * kLargerInDoubt + peak.darkness() * kLargerInDark;
-    const double drawn = kDrawnBy * partBelow(peak.alike(), kDrawn);
-    const double own_error = kOwnError + doubt * (kErrorInDoubt - kOwnError);
-    LogOfScale scale{by_sizes + drawn * (std::log(SceneScale().gsd_m_per_px) - by_sizes),
-                     own_error * own_error + spread / peak.cars};
-    const double fast = peak.car_speeds_m_s.empty() ? 0 : quantileOf(peak.car_speeds_m_s, kFast);
-    if (fast > 0) {
-        const double as_in_town = assumedGsd(best) * kTownSpeed / fast;
-        scale = combined(scale, {std::log(as_in_town), kSpeedError * kSpeedError});
-    }
-    return ScaleEstimate{std::exp(scale.value), std::exp(kSure * std::sqrt(scale.variance)),
-                         static_cast<int>(peak.cars)};
+    return scores.estimate(outcomes);
 }
 
 void LooksTogether::add(const std::vector<ScaleOutcome>& outcomes) {
     if (!estimateOfScale(outcomes)) return;
     for (std::size_t i = 0; i < outcomes.size(); ++i) sums_[i] = sums_[i] + outcomes[i];
     scores_.add(outcomes);
-    if (const auto estimate = estimateOfScale(sums_, scores_.of(sums_))) estimate_ = estimate;
+    if (const auto estimate = scores_.estimate(sums_)) estimate_ = estimate;
 }
 
 bool LooksTogether::suffice() const {

@@ -54,19 +54,6 @@ ScaleOutcome operator+(const ScaleOutcome& a, const ScaleOutcome& b);
 /// Whether a track of that length and width, m, is about as large as a car, as boxes have it.
 bool isCarSized(double length_m, double width_m);
 
-/// The scores by which they are compared, of the outcomes and the sums of each kind of score over several looks: those
-/// of what goes on looking like whole vehicles where these scores' best shows mostly what does not.
-class ScaleScores {
- public:
-    void add(const std::vector<ScaleOutcome>& outcomes);
-    /// `outcomes`: the sum of all that were added.
-    const std::vector<double>& of(const std::vector<ScaleOutcome>& outcomes) const;
-
- private:
-    std::vector<double> all_ = std::vector<double>(kScaleAssumptions);
-    std::vector<double> amid_relief_ = std::vector<double>(kScaleAssumptions);
-};
-
 /// The middle of the scores around the best one, of one outcome for each assumption. On eight clips it lay between .83
 /// and 1.21 of the truth; rather too fine than too coarse, since a scale too coarse by a tenth costs more. Nothing
 /// where too little looks like vehicles. Where most of what is detected does not, it is less sure and a little coarser
@@ -74,9 +61,20 @@ class ScaleScores {
 /// where nearly nothing does, the scale that would be assumed without it has a say, too. The less sure it is, the more
 /// counts how fast three quarters of the cars drive at most, as in towns: headlights and haze change sizes, not speeds.
 std::optional<ScaleEstimate> estimateOfScale(const std::vector<ScaleOutcome>& outcomes);
-/// The same by other scores than those of the outcomes themselves, one for each.
-std::optional<ScaleEstimate> estimateOfScale(const std::vector<ScaleOutcome>& outcomes,
-                                             const std::vector<double>& scores);
+
+/// Scores of outcomes, added up over several looks, and what they tell.
+class ScaleScores {
+ public:
+    void add(const std::vector<ScaleOutcome>& outcomes);
+    /// Of the sum of all outcomes that were added. Where most of what is detected looks like no vehicle, too fine an
+    /// assumption may show hardly anything else and seem right: there a much coarser one is, if what goes on looking
+    /// like whole vehicles says so.
+    std::optional<ScaleEstimate> estimate(const std::vector<ScaleOutcome>& sums) const;
+
+ private:
+    std::vector<double> all_ = std::vector<double>(kScaleAssumptions);
+    std::vector<double> amid_relief_ = std::vector<double>(kScaleAssumptions);
+};
 
 /// What several looks at a video tell together, each under all assumptions: their scores add up, so that a look that
 /// tells scales apart counts more than one that does not.
