@@ -190,12 +190,10 @@ bool isPartOf(const TrackPath& part, const TrackPath& whole, bool fixed, const S
         if (there == nullptr) continue;
         const OrientedBox box = there->second.box;
         const cv::Point2d place = box.toBox(state.box.centre);
-        const double beyond = scale.at(box.centre).px(kBeyond);
+        const double ends = box.length / 2 + (fixed ? scale.at(box.centre).px(kBeyond) : 0);
+        const bool between_ends = std::abs(place.x) <= ends;
         ++shared;
-        inside +=
-            std::abs(place.x) <= box.length / 2 + (fixed ? beyond : 0) && (fixed || std::abs(place.y) <= box.width / 2)
-                ? 1
-                : 0;
+        inside += between_ends && (fixed || std::abs(place.y) <= box.width / 2) ? 1 : 0;
     }
     return shared >= kSharedLife * static_cast<double>(part.states.size()) && inside >= kInside * shared;
 }
@@ -213,16 +211,6 @@ PartsByVehicle reachWholeVehicles(std::vector<TrackPath>& paths, const std::vect
     for (const TrackPath& path : paths) {
         const auto of_track = by_track.find(path.id);
         if (of_track == by_track.end()) continue;
-        if (getenv("LVD")) {
-            const auto& l = of_track->second;
-            const auto med = [](std::vector<double> v) { return v.empty() ? 0.0 : medianOf(v); };
-            fprintf(stderr,
-                    "LV %ld score %.2f all %zu seen %zu cut %zu lit %.2f box %.1fx%.1f rear %.1f front %.1f l %.1f r "
-                    "%.1f w %.1f agree %d of_box\n",
-                    static_cast<long>(path.id), path.states.front().second.score, l.all, l.rear.size(), l.cut,
-                    med(l.no_shadow), med(l.box_length), med(l.box_width), med(l.rear), med(l.front), med(l.left),
-                    med(l.right), med(l.width), l.rear.empty() ? 0 : agree(l, med(l.rear), med(l.front)));
-        }
         const std::map<TrackId, cv::Point2d> parts = partsBeside(path, paths, living, scale);
         const auto vehicle = longVehicleIn(of_track->second, parts);
         if (!vehicle) continue;
