@@ -42,7 +42,7 @@ std::vector<TrackPath> joinFragments(std::vector<TrackPath> paths, const GroundM
 enum class PartsOfVehicle {
     in_line,      ///< one right behind the other, faster and longer than bumper to bumper traffic would
     overlapping,  ///< on each other, as the cab, the load and the wheels of a lorry that is seen from the side
-    apart         ///< anywhere within the length and width of a lorry
+    apart  ///< anywhere within the length and width of a lorry, as mayBePartOf() asks: pictures have to tell more
 };
 
 /// Joins tracks that are parts of one vehicle: they drive as if fixed to each other. The longer track's id stays. Boxes
