@@ -61,6 +61,15 @@ void loseFrames(SceneDescription& scene, double share) {
     }
 }
 
+cv::Rect2d mapArea(const SceneDescription& scene) {
+    cv::Rect2d area = groundSeen(scene.camera, scene.frame_count);
+    area.x -= scene.map_margin;
+    area.y -= scene.map_margin;
+    area.width += 2 * scene.map_margin;
+    area.height += 2 * scene.map_margin;
+    return area;
+}
+
 FrameIndex clockFrame(const SceneDescription& scene, FrameIndex frame) {
     if (scene.shown.empty()) return frame;
     return scene.shown[static_cast<std::size_t>(std::clamp(frame, 0, static_cast<int>(scene.shown.size()) - 1))];

@@ -174,6 +174,9 @@ struct SceneDescription {
 /// three frames, half drop one to three. `scene.frame_count` stays; frames beyond the scene's clock repeat its last.
 void loseFrames(SceneDescription& scene, double share);
 
+/// Map rectangle (m) that is painted: all that the camera sees of the ground, and the scene's margin about it.
+cv::Rect2d mapArea(const SceneDescription& scene);
+
 /// The scene's clock at a frame of the video.
 FrameIndex clockFrame(const SceneDescription& scene, FrameIndex frame);
 

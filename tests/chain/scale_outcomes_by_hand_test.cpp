@@ -100,6 +100,12 @@ TEST(ScaleOutcomes, FromThreeOfTenDetectionsOnThatLookLikeVehiclesTheirShareCoun
     EXPECT_EQ(vehicles(99), 5);
     EXPECT_EQ(vehicles(101), 7);
     EXPECT_EQ(vehicles(101, 0), 5) << "a finer one is not believed";
+    // Where nothing goes on looking like a car, shares alone say something; where nothing scores, nothing does.
+    std::vector<ScaleOutcome> outcomes(kScaleAssumptions);
+    outcomes.at(0) = {99, 20, 200, 5, 5};
+    EXPECT_EQ(estimateOfScale(outcomes).value().vehicles, 5);
+    outcomes.at(0).decision = 0;
+    EXPECT_FALSE(estimateOfScale(outcomes));
 }
 
 TEST(ScaleOutcomes, InTheDarkSizesAreThoseOfVehiclesWithWhatTheyLight) {

@@ -62,7 +62,7 @@ std::optional<ScaleEstimate> estimateBy(const std::vector<double>& scores, const
     const auto highest = std::max_element(scores.begin(), scores.end());
     const auto best = static_cast<int>(highest - scores.begin());
     const ScaleOutcome& peak = outcomes[static_cast<std::size_t>(best)];
-    if (!peak.showsTraffic()) return std::nullopt;
+    if (*highest <= 0 || !peak.showsTraffic()) return std::nullopt;
     double weights = 0;
     double sum = 0;
     double squares = 0;

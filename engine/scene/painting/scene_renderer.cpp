@@ -21,15 +21,6 @@
 namespace eyrie {
 namespace {
 
-cv::Rect2d mapArea(const SceneDescription& scene) {
-    cv::Rect2d area = groundSeen(scene.camera, scene.frame_count);
-    area.x -= scene.map_margin;
-    area.y -= scene.map_margin;
-    area.width += 2 * scene.map_margin;
-    area.height += 2 * scene.map_margin;
-    return area;
-}
-
 /// Six tenths of the finest pixel on the ground along the camera's path.
 double mapTexel(const SceneDescription& scene) {
     double finest = 1e9;

@@ -75,11 +75,8 @@ SceneDescription presetEstate(std::uint32_t seed) {
                    {last, {way / 2, -5}, height + 2, turn + 0.03, tilt, focal}};
     scene.gsd_m_per_px = 1.05 * height / portable::cosine(tilt) / focal;
 
-    const cv::Rect2d seen = groundSeen(camera, scene.frame_count);
-    const double margin = scene.map_margin;
     scene.base.seed = seed;
-    Town town(scene, {seen.x - margin, seen.y - margin, seen.width + 2 * margin, seen.height + 2 * margin},
-              seed * 53 + 1);
+    Town town(scene, mapArea(scene), seed * 53 + 1);
     Street row;
     row.lanes = 1;
     row.lane_width = 3;

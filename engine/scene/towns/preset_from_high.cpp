@@ -8,16 +8,10 @@
 namespace eyrie {
 namespace {
 
-cv::Rect2d paintedArea(const SceneDescription& scene) {
-    const cv::Rect2d seen = groundSeen(scene.camera, scene.frame_count);
-    const double margin = scene.map_margin;
-    return {seen.x - margin, seen.y - margin, seen.width + 2 * margin, seen.height + 2 * margin};
-}
-
 /// Streets along x every `distance` metres and some across, with traffic on all.
 std::vector<MovingObject> growCity(SceneDescription& scene, double distance, double traffic_share, double run_up,
                                    int clock_frames, double clock_hz) {
-    const cv::Rect2d area = paintedArea(scene);
+    const cv::Rect2d area = mapArea(scene);
     Random random(scene.seed * 61 + 3);
     Town town(scene, area, scene.seed * 61 + 1);
     std::vector<int> along;

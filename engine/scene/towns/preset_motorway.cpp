@@ -77,12 +77,9 @@ SceneDescription presetMotorway(std::uint32_t seed) {
 
     Random random(seed * 71 + 3);
     watchMotorway(scene, random);
-    const cv::Rect2d seen = groundSeen(scene.camera, scene.frame_count);
-    const double margin = scene.map_margin;
     scene.base = Surface{Material::field, 1.0};
     scene.base.seed = seed;
-    Town town(scene, {seen.x - margin, seen.y - margin, seen.width + 2 * margin, seen.height + 2 * margin},
-              seed * 71 + 1);
+    Town town(scene, mapArea(scene), seed * 71 + 1);
     const double bend = random.uniform(-30, 30);
     Street motorway;
     motorway.path = Path::rounded({{-bend, 900}, {0, 120}, {0, -120}, {bend * 2, -900}}, 900);

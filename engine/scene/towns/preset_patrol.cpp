@@ -41,11 +41,8 @@ SceneDescription presetPatrol(std::uint32_t seed) {
                                radiansFromDegrees(7),
                                focal});
     }
-    const cv::Rect2d seen = groundSeen(camera, scene.frame_count);
-    const double margin = scene.map_margin;
     scene.base.seed = seed;
-    Town town(scene, {seen.x - margin, seen.y - margin, seen.width + 2 * margin, seen.height + 2 * margin},
-              seed * 53 + 1);
+    Town town(scene, mapArea(scene), seed * 53 + 1);
     Street main;
     main.path = Path::rounded({{-190, 14}, {0, 0}, {190, -12}}, 200);
     main.lanes = 2;

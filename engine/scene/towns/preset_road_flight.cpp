@@ -83,11 +83,8 @@ SceneDescription flight(std::uint32_t seed) {
 SceneDescription built(SceneDescription scene) {
     Random random(scene.seed * 47 + 3);
     flyAlong(scene, random);
-    const cv::Rect2d seen = groundSeen(scene.camera, scene.frame_count);
-    const double margin = scene.map_margin;
-    const cv::Rect2d area(seen.x - margin, seen.y - margin, seen.width + 2 * margin, seen.height + 2 * margin);
     scene.base.seed = scene.seed;
-    Town town(scene, area, scene.seed * 47 + 1);
+    Town town(scene, mapArea(scene), scene.seed * 47 + 1);
     Street main;
     const double bend = random.uniform(-18, 18);
     main.path = Path::rounded({{0, 260}, {0, -60}, {bend, -220}, {bend * 2.5, -620}}, 500);

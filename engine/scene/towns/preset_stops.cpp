@@ -34,11 +34,8 @@ SceneDescription presetStops(std::uint32_t seed) {
                    {450, {4, -2}, height - 5, radiansFromDegrees(3), radiansFromDegrees(6), focal * 1.02},
                    {900, {-3, -4}, height + 5, radiansFromDegrees(12), radiansFromDegrees(8), focal},
                    {1300, {3, 3}, height, radiansFromDegrees(5), radiansFromDegrees(10), focal}};
-    const cv::Rect2d seen = groundSeen(camera, scene.frame_count);
-    const double margin = scene.map_margin;
     scene.base.seed = seed;
-    Town town(scene, {seen.x - margin, seen.y - margin, seen.width + 2 * margin, seen.height + 2 * margin},
-              seed * 43 + 1);
+    Town town(scene, mapArea(scene), seed * 43 + 1);
     Street main;
     main.path = Path::rounded({{-420, 20}, {0, 0}, {420, -25}}, 300);
     main.lanes = 2;

@@ -42,10 +42,7 @@ SceneDescription presetThermal(std::uint32_t seed) {
     camera.keys = {{0, {-28, 3}, height, turn, radiansFromDegrees(14), focal},
                    {75, {0, -2}, height + 3, turn + 0.06, radiansFromDegrees(18), focal},
                    {150, {30, 2}, height - 3, turn + 0.1, radiansFromDegrees(15), focal}};
-    const cv::Rect2d seen = groundSeen(camera, scene.frame_count);
-    const double margin = scene.map_margin;
-    Town town(scene, {seen.x - margin, seen.y - margin, seen.width + 2 * margin, seen.height + 2 * margin},
-              seed * 67 + 1);
+    Town town(scene, mapArea(scene), seed * 67 + 1);
     Street main;
     main.path = Path::rounded({{-420, 22}, {0, 0}, {420, -20}}, 250);
     main.lanes = 2;

@@ -7,10 +7,6 @@
 namespace eyrie {
 namespace {
 
-cv::Rect2d grown(cv::Rect2d area, double by) {
-    return {area.x - by, area.y - by, area.width + 2 * by, area.height + 2 * by};
-}
-
 double degrees(double value) {
     return radiansFromDegrees(value);
 }
@@ -51,7 +47,7 @@ SceneDescription presetSeq1(std::uint32_t seed) {
                    {250, {62, 8}, height + 4, degrees(-6), degrees(6), focal * 1.01},
                    {401, {158, 2}, height + 2, degrees(-17), degrees(8), focal}};
 
-    const cv::Rect2d area = grown(groundSeen(camera, scene.frame_count), scene.map_margin);
+    const cv::Rect2d area = mapArea(scene);
     scene.base.seed = seed;
     Town town(scene, area, seed * 31 + 1);
     Street main;
@@ -150,7 +146,7 @@ SceneDescription presetSeq2(std::uint32_t seed) {
     camera.keys = {{0, {-44, -8}, height, degrees(-24), degrees(5), focal},
                    {90, {-6, 4}, height, degrees(-14), degrees(9), focal * 1.015},
                    {201, {46, 4}, height + 5, degrees(4), degrees(7), focal}};
-    const cv::Rect2d area = grown(groundSeen(camera, scene.frame_count), scene.map_margin);
+    const cv::Rect2d area = mapArea(scene);
     scene.base.seed = seed;
     Town town(scene, area, seed * 37 + 1);
     Street main;
@@ -232,7 +228,7 @@ SceneDescription presetDemo(std::uint32_t seed) {
     camera.keys = {{0, {-12, 4}, height, degrees(-22), degrees(24), focal},
                    {120, {2, 0}, height - 4, degrees(-10), degrees(27), focal * 1.04},
                    {250, {13, -5}, height + 4, degrees(7), degrees(24), focal}};
-    const cv::Rect2d area = grown(groundSeen(camera, scene.frame_count), scene.map_margin);
+    const cv::Rect2d area = mapArea(scene);
     scene.base.seed = seed;
     Town town(scene, area, seed * 41 + 1);
     Street main;

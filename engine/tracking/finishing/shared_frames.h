@@ -31,6 +31,11 @@ void forSharedFrames(const TrackPath& a, const TrackPath& b, Visit visit) {
 /// Which of many tracks live at one time with another. An hour has hundreds of thousands, most of which never meet.
 class LivingTracks {
  public:
+    LivingTracks() = default;
+    /// All of them, by their place; none without states.
+    explicit LivingTracks(const std::vector<TrackPath>& paths) {
+        for (std::size_t i = 0; i < paths.size(); ++i) add(i, paths[i].firstFrame(), paths[i].lastFrame());
+    }
     /// `track`: the number by which it is told again; `first` … `last`: its frames, both included.
     void add(std::size_t track, FrameIndex first, FrameIndex last) {
         for (FrameIndex span = first / kSpan; span <= last / kSpan; ++span)

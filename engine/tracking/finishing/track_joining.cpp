@@ -134,8 +134,7 @@ class Joiner {
 
 /// Pairs of which the second may continue the first, by the second, then the first.
 std::vector<WeightedPair> possiblePairs(const std::vector<TrackPath>& paths, const Joiner& joiner) {
-    LivingTracks living;
-    for (std::size_t i = 0; i < paths.size(); ++i) living.add(i, paths[i].firstFrame(), paths[i].lastFrame());
+    const LivingTracks living(paths);
     std::vector<WeightedPair> pairs;
     for (std::size_t later = 0; later < paths.size(); ++later) {
         const FrameIndex begin = paths[later].firstFrame();
@@ -151,8 +150,7 @@ std::vector<WeightedPair> possiblePairs(const std::vector<TrackPath>& paths, con
 /// For each earlier track the one that goes on at once where it ends; nothing where several do, or it goes on several.
 std::map<std::size_t, std::size_t> meetingPairs(const std::vector<TrackPath>& paths, const FollowedEnds& followed,
                                                 const Joiner& joiner, int max_gap) {
-    LivingTracks living;
-    for (std::size_t i = 0; i < paths.size(); ++i) living.add(i, paths[i].firstFrame(), paths[i].lastFrame());
+    const LivingTracks living(paths);
     std::map<std::size_t, std::vector<std::size_t>> earlier_of;
     std::map<std::size_t, int> continued;
     for (std::size_t later = 0; later < paths.size(); ++later) {

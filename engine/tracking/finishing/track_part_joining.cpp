@@ -17,18 +17,16 @@ constexpr double kTravelled = 8;           ///< m over the ground meanwhile: sta
 constexpr double kSlowestForParts = 2.5;   ///< m/s; in slower traffic cars drive bumper to bumper
 constexpr double kPartGap = 0.6;           ///< m between parts
 constexpr double kAside = 1.0;             ///< m between the axes of parts
-constexpr double kAsideApart = 2.8;        ///< … where their boxes may reach out over it
-constexpr double kSureAlone = 0.8;         ///< score from which on a track is a vehicle, and no part of one
+constexpr double kAsideApart = 2.8;        ///< … of parts that lie anywhere, whose boxes may reach out over it
 constexpr double kLoose = 0.35;            ///< m by which the distance of parts scatters
 constexpr double kMostTurn = 0.35;         ///< radians
 constexpr double kPart = 3.6;              ///< m; one of the two is shorter than any car
-constexpr double kLongest = 20;            ///< m
 constexpr double kWidest = 3.6;            ///< m
 constexpr double kPixel = 1;               ///< px of tolerance, whatever the scale
 constexpr double kCovered = 0.1;           ///< of the smaller part, where parts lie on each other …
 constexpr double kTravelledCovered = 4;    ///< … m over the ground that say enough then …
 constexpr double kCoveredOfLonger = 0.25;  ///< … share of the longer one's life, whose box grows throughout …
-constexpr double kLooseCovered = 0.5;      ///< … and m by which their distance scatters
+constexpr double kLooseCovered = 0.5;      ///< … and m by which their distance scatters, and that of parts anywhere
 constexpr double kWholeAlone = 1.25;       ///< a part that is longer by this factor while alone is the whole then
 
 /// What a whole box adds to one of its parts, in the part's own axes; m, since it grows as the vehicle comes nearer.
@@ -62,50 +60,84 @@ struct Whole {
     Growth of_other;
 };
 
-/// How two tracks make one vehicle: they drive right behind or on each other as if fixed. Nothing if they do not.
-std::optional<Whole> wholeOf(const TrackPath& leader, const TrackPath& other, const SceneScale& everywhere,
-                             PartsOfVehicle wanted) {
-    Whole whole;
-    std::vector<double> along, across, gaps, covered, parts, lengths, widths, pixels;  // m, but for the shares covered
+/// How two tracks drive in the frames they share, but those in which they are turned to each other; m, but for the
+/// shares covered.
+struct Together {
+    std::vector<double> along, across;  ///< of the other's centre in the axes of the leader
+    std::vector<double> gaps, covered, parts, lengths, widths, pixels;
     double travelled = 0;
+    Whole whole;
+
+    double frames() const { return static_cast<double>(along.size()); }
+    double aside() const {
+        std::vector<double> off;
+        for (const double value : across) off.push_back(std::abs(value));
+        return medianOf(std::move(off));
+    }
+    double tolerance() const { return kPixel * medianOf(pixels); }
+    /// Whether they are seen together for long, and on their way: standing things and bumper to bumper traffic say
+    /// nothing.
+    bool saysSomething(double travelled_m, const SceneScale& scale) const {
+        return frames() >= std::max(5.0, kSharedSeconds * scale.frame_rate_hz) && travelled >= travelled_m &&
+               travelled / frames() >= kSlowestForParts / scale.frame_rate_hz;
+    }
+};
+
+Together togetherOf(const TrackPath& leader, const TrackPath& other, const SceneScale& everywhere) {
+    Together together;
     forSharedFrames(leader, other, [&](const MovingState& state, const MovingState& of_other) {
         const OrientedBox& part = of_other.box;
         if (std::abs(axisTurnBetween(state.box.heading, part.heading)) > kMostTurn) return;
         const double pixel = 1 / everywhere.at(part.centre).px(1);
-        pixels.push_back(pixel);
+        together.pixels.push_back(pixel);
         const cv::Point2d offset = state.box.toBox(part.centre);
-        along.push_back(offset.x * pixel);
-        across.push_back(std::abs(offset.y) * pixel);
-        gaps.push_back((std::abs(offset.x) - (state.box.length + part.length) / 2) * pixel);
-        covered.push_back(containment(state.box, part));
-        parts.push_back(std::min(state.box.length, part.length) * pixel);
-        travelled += std::hypot(state.velocity.x, state.velocity.y) * pixel;
+        together.along.push_back(offset.x * pixel);
+        together.across.push_back(offset.y * pixel);
+        together.gaps.push_back((std::abs(offset.x) - (state.box.length + part.length) / 2) * pixel);
+        together.covered.push_back(containment(state.box, part));
+        together.parts.push_back(std::min(state.box.length, part.length) * pixel);
+        together.travelled += std::hypot(state.velocity.x, state.velocity.y) * pixel;
         const OrientedBox both = unionBox(state.box, part);
-        lengths.push_back(both.length * pixel);
-        widths.push_back(both.width * pixel);
-        whole.of_leader.add(state.box, both, pixel);
-        whole.of_other.add(part, both, pixel);
+        together.lengths.push_back(both.length * pixel);
+        together.widths.push_back(both.width * pixel);
+        together.whole.of_leader.add(state.box, both, pixel);
+        together.whole.of_other.add(part, both, pixel);
     });
-    const auto frames = static_cast<double>(along.size());
+    return together;
+}
+
+/// How two tracks make one vehicle: they drive right behind or on each other as if fixed. Nothing if they do not.
+std::optional<Whole> wholeOf(const TrackPath& leader, const TrackPath& other, const SceneScale& everywhere,
+                             PartsOfVehicle wanted) {
+    const Together together = togetherOf(leader, other, everywhere);
     const auto [shorter, longer] =
         std::minmax({static_cast<double>(leader.states.size()), static_cast<double>(other.states.size())});
     const bool overlap = wanted == PartsOfVehicle::overlapping;
-    if (frames < std::max(5.0, kSharedSeconds * everywhere.frame_rate_hz)) return {};
-    if (frames < (overlap ? kCoveredOfLonger * longer : kPartOfShorter * shorter)) return {};
-    if (overlap && medianOf(covered) < kCovered) return {};
-    if (travelled < (overlap ? kTravelledCovered : kTravelled)) return {};
-    if (travelled / frames < kSlowestForParts / everywhere.frame_rate_hz) return {};
-    const double tolerance = kPixel * medianOf(pixels);
-    const bool apart = wanted == PartsOfVehicle::apart;
-    if (!apart && medianOf(gaps) > kPartGap + tolerance) return {};
-    if (wanted == PartsOfVehicle::in_line && medianOf(across) > kAside + tolerance) return {};
-    if (apart && medianOf(across) > kAsideApart + tolerance) return {};
-    if (spreadOf(along) > (wanted == PartsOfVehicle::in_line ? kLoose : kLooseCovered) + tolerance / 2) return {};
+    if (!together.saysSomething(overlap ? kTravelledCovered : kTravelled, everywhere)) return {};
+    if (together.frames() < (overlap ? kCoveredOfLonger * longer : kPartOfShorter * shorter)) return {};
+    if (overlap && medianOf(together.covered) < kCovered) return {};
+    const double tolerance = together.tolerance();
+    if (medianOf(together.gaps) > kPartGap + tolerance) return {};
+    if (!overlap && together.aside() > kAside + tolerance) return {};
+    if (spreadOf(together.along) > (overlap ? kLooseCovered : kLoose) + tolerance / 2) return {};
     const double metre = overlap && !everywhere.gsd_known ? 1 / kEstimatedShare : 1;
-    if (!apart && medianOf(parts) > kPart * metre) return {};
-    if (medianOf(lengths) > kLongest * metre) return {};
-    if (!apart && medianOf(widths) > kWidest * metre + 2 * tolerance) return {};
-    return whole;
+    if (medianOf(together.parts) > kPart * metre) return {};
+    if (medianOf(together.lengths) > kLongestOfParts * metre) return {};
+    if (medianOf(together.widths) > kWidest * metre + 2 * tolerance) return {};
+    return together.whole;
+}
+
+/// Where a part of the vehicle of a track lies that may be anywhere on it, m from the middle of its box.
+std::optional<cv::Point2d> placeOfPart(const TrackPath& vehicle, const TrackPath& part, const SceneScale& everywhere) {
+    if (part.id == vehicle.id || part.states.front().second.score >= kSurelyVehicle) return {};
+    const Together together = togetherOf(vehicle, part, everywhere);
+    const auto shorter = static_cast<double>(std::min(vehicle.states.size(), part.states.size()));
+    if (!together.saysSomething(kTravelled, everywhere) || together.frames() < kPartOfShorter * shorter) return {};
+    const double tolerance = together.tolerance();
+    if (together.aside() > kAsideApart + tolerance) return {};
+    if (spreadOf(together.along) > kLooseCovered + tolerance / 2) return {};
+    if (medianOf(together.lengths) > kLongestOfParts) return {};
+    return cv::Point2d(medianOf(together.along), medianOf(together.across));
 }
 
 /// Whether a track is a part of the vehicle also where the other part is not seen: it is no longer there than beside
@@ -146,9 +178,15 @@ void join(TrackPath& leader, const TrackPath& other, const Whole& whole, const S
 
 }  // namespace
 
-bool mayBePartOf(const TrackPath& vehicle, const TrackPath& part, const SceneScale& scale) {
-    return part.id != vehicle.id && part.states.front().second.score < kSureAlone &&
-           wholeOf(vehicle, part, scale, PartsOfVehicle::apart).has_value();
+PartsByTrack partsBeside(const std::vector<TrackPath>& paths, const SceneScale& scale) {
+    const LivingTracks living(paths);
+    PartsByTrack parts;
+    for (const TrackPath& path : paths) {
+        for (const std::size_t i : living.during(path.firstFrame(), path.lastFrame())) {
+            if (const auto place = placeOfPart(path, paths[i], scale)) parts[path.id][paths[i].id] = *place;
+        }
+    }
+    return parts;
 }
 
 void joinParts(std::vector<TrackPath>& paths, const SceneScale& scale, PartsOfVehicle wanted) {

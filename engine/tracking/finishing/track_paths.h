@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <set>
 #include <utility>
 #include <vector>
@@ -12,6 +13,13 @@ namespace eyrie {
 
 /// How much smaller, or larger by its inverse, than a limit in metres a vehicle may seem where the GSD was estimated.
 inline constexpr double kEstimatedShare = 0.8;
+
+/// Score from which on a finished track is surely a vehicle: it is followed on where it ends, and is no part of
+/// another.
+inline constexpr double kSurelyVehicle = 0.8;
+
+/// m; the longest vehicles that more than one track may be of.
+inline constexpr double kLongestOfParts = 20;
 
 /// Collects what is left out.
 using DropList = std::vector<DroppedPath>;
@@ -40,19 +48,22 @@ std::vector<TrackPath> joinFragments(std::vector<TrackPath> paths, const GroundM
 
 /// How tracks lie that are parts of one vehicle.
 enum class PartsOfVehicle {
-    in_line,      ///< one right behind the other, faster and longer than bumper to bumper traffic would
-    overlapping,  ///< on each other, as the cab, the load and the wheels of a lorry that is seen from the side
-    apart  ///< anywhere within the length and width of a lorry, as mayBePartOf() asks: pictures have to tell more
+    in_line,     ///< one right behind the other, faster and longer than bumper to bumper traffic would
+    overlapping  ///< on each other, as the cab, the load and the wheels of a lorry that is seen from the side
 };
 
 /// Joins tracks that are parts of one vehicle: they drive as if fixed to each other. The longer track's id stays. Boxes
 /// that overlap must be steady, and those of shadows be gone.
 void joinParts(std::vector<TrackPath>& paths, const SceneScale& scale, PartsOfVehicle wanted);
 
-/// Whether a scored track may be a part of the vehicle of another: it drives as if fixed to it, within the length and
-/// width of a lorry, and is not surely a vehicle itself. Who keeps their distance do so, too: whether the ground lies
-/// between them tells.
-bool mayBePartOf(const TrackPath& vehicle, const TrackPath& part, const SceneScale& scale);
+/// By tracks: where other tracks usually lie that may be parts of the same vehicle, m ahead and to the right of the
+/// middle of its box.
+using PartsByTrack = std::map<TrackId, std::map<TrackId, cv::Point2d>>;
+
+/// Of scored tracks those that have such parts: tracks that drive as if fixed to them within the length and width of a
+/// lorry, and are not surely vehicles themselves. Who keeps their distance do so, too: whether the ground lies between
+/// them tells.
+PartsByTrack partsBeside(const std::vector<TrackPath>& paths, const SceneScale& scale);
 
 /// Replaces lengths and widths by their weighted median over a window, on the ground: enlargement by the camera, and by
 /// the vehicle's own way towards it, is taken into account, detections count most.

@@ -60,8 +60,7 @@ bool drivesAsShadowOf(const TrackPath& shadow, const TrackPath& vehicle, const S
 
 void dropShadows(std::vector<TrackPath>& paths, const IsShadow& is_shadow, DropList& dropped) {
     std::vector<TrackId> vehicle_of(paths.size(), 0);
-    LivingTracks living;
-    for (std::size_t i = 0; i < paths.size(); ++i) living.add(i, paths[i].firstFrame(), paths[i].lastFrame());
+    const LivingTracks living(paths);
     for (std::size_t i = 0; i < paths.size(); ++i) {
         const std::vector<std::size_t> others = living.during(paths[i].firstFrame(), paths[i].lastFrame());
         const auto vehicle = std::find_if(others.begin(), others.end(),

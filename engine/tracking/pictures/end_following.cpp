@@ -13,8 +13,7 @@
 namespace eyrie {
 namespace {
 
-constexpr double kSureTrack = 0.8;      ///< score from which a track is surely a vehicle …
-constexpr int kSurelyDetected = 6;      ///< … and states in which it was detected, at least
+constexpr int kSurelyDetected = 6;      ///< states in which a track was detected, at least, that is followed on
 constexpr double kSlowestFollowed = 1;  ///< m/s at the end it is followed on from; what stands is known otherwise
 constexpr std::size_t kLastStates = 5;  ///< of an end, in which it was seen without a gap
 constexpr int kMostGuessed = 8;         ///< frames of a guessed beginning; longer ones tell where it stood
@@ -77,7 +76,8 @@ class EndFollowing {
     };
 
     bool isSure(const TrackPath& path) const {
-        return path.states.back().second.score >= kSureTrack && path.statesOf(StateOrigin::detected) >= kSurelyDetected;
+        return path.states.back().second.score >= kSurelyVehicle &&
+               path.statesOf(StateOrigin::detected) >= kSurelyDetected;
     }
     /// What was seen once after it was lost may be another.
     static bool seenToTheEnd(const TrackPath& path) {

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "core/robust_statistics.h"
-#include "tracking/finishing/shared_frames.h"
 
 namespace eyrie {
 namespace {
@@ -21,8 +20,7 @@ constexpr double kHoldsBoxOfPart = 0.3;  ///< … where other parts of it are fo
 constexpr double kLonger = 1.4;          ///< than the box: less is not worth a change …
 constexpr double kLongerWithParts = 1;   ///< … but to take in other parts
 constexpr double kLongerThanCars = 5.5;  ///< m
-constexpr double kLongestAlone = 18;     ///< m …
-constexpr double kLongest = 20;          ///< … and where other parts are followed, too
+constexpr double kLongest = 18;          ///< m, where no other parts are followed
 constexpr double kWidest = 4.2;          ///< m, of the silhouette, with the side that an oblique view shows …
 constexpr double kBusSlender = 3;        ///< … or, of what is as high as a bus, wider if it is so many times as long
 constexpr double kLorryWidth = 2.6;      ///< m, as wide as lorries may be
@@ -84,26 +82,7 @@ bool agree(const LooksAtLength& looks, double rear, double front) {
     return static_cast<double>(agreeing) >= kShareAgreeing * static_cast<double>(looks.rear.size());
 }
 
-/// Where other tracks lie from the middle of a track's box that drive with it as if fixed, m.
-std::map<TrackId, cv::Point2d> partsBeside(const TrackPath& path, const std::vector<TrackPath>& paths,
-                                           const LivingTracks& living, const SceneScale& scale) {
-    std::map<TrackId, cv::Point2d> parts;
-    for (const std::size_t i : living.during(path.firstFrame(), path.lastFrame())) {
-        const TrackPath& other = paths[i];
-        if (!mayBePartOf(path, other, scale)) continue;
-        std::vector<double> along, across;
-        forSharedFrames(path, other, [&](const MovingState& state, const MovingState& of_other) {
-            const cv::Point2d offset = state.box.toBox(of_other.box.centre);
-            const SceneScale here = scale.at(state.box.centre);
-            along.push_back(here.metres(offset.x));
-            across.push_back(here.metres(offset.y));
-        });
-        parts[other.id] = {medianOf(std::move(along)), medianOf(std::move(across))};
-    }
-    return parts;
-}
-
-/// Whether one of those lies in what looks usually show as the vehicle.
+/// Whether one of the parts beside a track lies in what looks usually show as the vehicle.
 bool holdsOneOf(const std::map<TrackId, cv::Point2d>& parts, const LooksAtLength& looks) {
     const double rear = medianOf(looks.rear);
     const double front = medianOf(looks.front);
@@ -119,7 +98,7 @@ bool holdsOneOf(const std::map<TrackId, cv::Point2d>& parts, const LooksAtLength
 struct LongVehicleLimits {
     double holds_box = kHoldsBox;
     double longer = kLonger;
-    double longest = kLongestAlone;
+    double longest = kLongest;
 };
 
 std::optional<AboutBox> longVehicleIn(const LooksAtLength& looks, const LongVehicleLimits& limits) {
@@ -149,7 +128,7 @@ std::optional<AboutBox> longVehicleIn(const LooksAtLength& looks, const LongVehi
 /// `parts`: where other tracks lie that may be of the same vehicle, m from the middle of the box.
 std::optional<AboutBox> longVehicleIn(const LooksAtLength& looks, const std::map<TrackId, cv::Point2d>& parts) {
     if (!looks.rear.empty() && holdsOneOf(parts, looks))
-        return longVehicleIn(looks, {kHoldsBoxOfPart, kLongerWithParts, kLongest});
+        return longVehicleIn(looks, {kHoldsBoxOfPart, kLongerWithParts, kLongestOfParts});
     return longVehicleIn(looks, LongVehicleLimits());
 }
 
@@ -204,19 +183,20 @@ PartsByVehicle reachWholeVehicles(std::vector<TrackPath>& paths, const std::vect
                                   const std::vector<CastShadow>& shadows, const GroundTurns& turns,
                                   const SceneScale& scale) {
     const std::map<TrackId, LooksAtLength> by_track = looksByTrack(looks, shadows, turns, scale);
-    LivingTracks living;
-    for (std::size_t i = 0; i < paths.size(); ++i) living.add(i, paths[i].firstFrame(), paths[i].lastFrame());
+    const PartsByTrack parts = partsBeside(paths, scale);
     std::map<TrackId, AboutBox> long_ones;
     PartsByVehicle longer;
     for (const TrackPath& path : paths) {
         const auto of_track = by_track.find(path.id);
         if (of_track == by_track.end()) continue;
-        const std::map<TrackId, cv::Point2d> parts = partsBeside(path, paths, living, scale);
-        const auto vehicle = longVehicleIn(of_track->second, parts);
+        const auto beside = parts.find(path.id);
+        const auto vehicle =
+            longVehicleIn(of_track->second, beside == parts.end() ? PartsByTrack::mapped_type() : beside->second);
         if (!vehicle) continue;
         long_ones[path.id] = *vehicle;
-        for (const auto& [part, place] : parts) longer[path.id].insert(part);
-        longer[path.id].insert(path.id);
+        std::set<TrackId>& of_vehicle = longer[path.id];
+        if (beside == parts.end()) continue;
+        for (const auto& [part, place] : beside->second) of_vehicle.insert(part);
     }
     for (TrackPath& path : paths) {
         const auto vehicle = long_ones.find(path.id);

@@ -14,7 +14,7 @@
 
 namespace eyrie {
 
-/// By each track whose box was made as long as its vehicle: itself, and those that drive as if fixed to it.
+/// By each track whose box was made as long as its vehicle: those that drive as if fixed to it.
 using PartsByVehicle = std::map<TrackId, std::set<TrackId>>;
 
 /// Makes boxes that hold a part of a lorry or a bus as long as it is, as far as most looks at it agree how far it hides

@@ -81,7 +81,8 @@ void makeWhole(FinishedTracks& finished, std::vector<SilhouetteLook>& looks, con
     }
     PartsByVehicle lorries;
     for (const auto& [id, of_vehicle] : parts) {
-        for (const TrackId part : of_vehicle) lorries[ownerOf(taken_up, id)].insert(ownerOf(taken_up, part));
+        std::set<TrackId>& of_owner = lorries[ownerOf(taken_up, id)];
+        for (const TrackId part : of_vehicle) of_owner.insert(ownerOf(taken_up, part));
     }
     dropPartsOf(lorries, finished.paths, scale, finished.dropped);
     std::erase_if(looks, [&](const SilhouetteLook& look) { return lorries.contains(ownerOf(taken_up, look.track)); });
@@ -97,6 +98,7 @@ GroundTurns turnsOf(const std::vector<TrackPath>& paths, const GroundMotion& gro
     return GroundTurns(ground, first, last, std::max(1, framesOf(kLongestStretch, scale)));
 }
 
+/// Those at tracks that are surely vehicles by their score: what others show of the light is no evidence.
 std::vector<SilhouetteLook> sureOnes(const std::vector<SilhouetteLook>& looks) {
     std::vector<SilhouetteLook> sure;
     std::copy_if(looks.begin(), looks.end(), std::back_inserter(sure),

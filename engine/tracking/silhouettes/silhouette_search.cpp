@@ -9,7 +9,6 @@
 #include "core/values/last_frame.h"
 #include "imaging/picture_darkness.h"
 #include "tracking/finishing/frames_of.h"
-#include "tracking/finishing/shared_frames.h"
 #include "tracking/finishing/track_occupancy.h"
 
 namespace eyrie {
@@ -29,29 +28,27 @@ constexpr double kClear = 0.7;        ///< share of the margin that other boxes 
 
 class SilhouetteSearch::Plan {
  public:
-    Plan(const std::vector<TrackPath>& paths, const GroundMotion& ground, const SceneScale& scale)
+    Plan(const std::vector<TrackPath>& paths, const PartsByTrack& parts, const GroundMotion& ground,
+         const SceneScale& scale)
         : paths_(paths),
+          parts_(parts),
           ground_(ground),
           scale_(scale),
           taken_(paths),
           apart_(std::max(1, framesOf(kPicturesApart, scale))),
-          within_(framesOf(kGroundWithin, scale)) {
-        for (std::size_t i = 0; i < paths.size(); ++i) living_.add(i, paths[i].firstFrame(), paths[i].lastFrame());
-    }
+          within_(framesOf(kGroundWithin, scale)) {}
 
     std::vector<Planned> looks() const {
         std::vector<Planned> looks;
         for (const TrackPath& path : paths_) {
             const double score = path.states.front().second.score;
             if (score < kMaybeVehicle) continue;
-            const auto parts = partsBeside(path);
             for (const TimedPathState* state : momentsOf(path)) {
                 const OrientedBox box = state->second.box;
                 const double metre = scale_.at(box.centre).px(1);
                 Planned look{{path.id, score >= kSureVehicle, state->first, box, 0, 0, 0, {}, {}},
-                             parts,
                              SilhouetteGrid(box, kMarginAbout * metre, std::max(0.5, kGridStep * metre)),
-                             ExtentGrid(box, metre, !parts->empty()),
+                             ExtentGrid(box, metre, parts_.contains(path.id)),
                              {}};
                 addGrounds(look, path, -1);
                 addGrounds(look, path, 1);
@@ -65,16 +62,6 @@ class SilhouetteSearch::Plan {
     }
 
  private:
-    /// Tracks that may be of the same vehicle.
-    std::shared_ptr<const std::set<TrackId>> partsBeside(const TrackPath& path) const {
-        auto parts = std::make_shared<std::set<TrackId>>();
-        for (const std::size_t i : living_.during(path.firstFrame(), path.lastFrame())) {
-            const TrackPath& other = paths_[i];
-            if (mayBePartOf(path, other, scale_)) parts->insert(other.id);
-        }
-        return parts;
-    }
-
     std::vector<const TimedPathState*> momentsOf(const TrackPath& path) const {
         std::vector<const TimedPathState*> all;
         for (const TimedPathState& state : path.states) {
@@ -117,9 +104,9 @@ class SilhouetteSearch::Plan {
     }
 
     const std::vector<TrackPath>& paths_;
+    const PartsByTrack& parts_;
     const GroundMotion& ground_;
     const SceneScale& scale_;
-    LivingTracks living_;
     TrackOccupancy taken_;
     int apart_;   ///< frames between pictures that are read
     int within_;  ///< frames
@@ -138,7 +125,7 @@ std::map<TrackId, double> usualByTrack(const std::vector<SilhouetteLook>& looks,
 
 SilhouetteSearch::SilhouetteSearch(const std::vector<TrackPath>& paths, const GroundMotion& ground,
                                    const SceneScale& scale)
-    : planned_(Plan(paths, ground, scale).looks()) {
+    : parts_(partsBeside(paths, scale)), planned_(Plan(paths, parts_, ground, scale).looks()) {
     for (std::size_t i = 0; i < planned_.size(); ++i) {
         wanting_[planned_[i].look.frame].push_back(i);
         for (const Ground& bare : planned_[i].grounds) wanting_[bare.frame].push_back(i);
@@ -159,14 +146,19 @@ void SilhouetteSearch::show(FrameIndex frame, const cv::Mat& gray) {
     boxes_.erase(frame);
 }
 
+bool SilhouetteSearch::mayBePart(TrackId vehicle, TrackId track) const {
+    const auto parts = parts_.find(vehicle);
+    return parts != parts_.end() && parts->second.contains(track);
+}
+
 void SilhouetteSearch::take(Planned& planned, FrameIndex frame, const cv::Mat& gray, const std::vector<TrackBox>& boxes,
                             double darkness) {
     const bool shows_vehicle = frame == planned.look.frame;
     std::vector<OrientedBox> others;
     for (const TrackBox& each : boxes) {
         // Who is not sure may be a part of the vehicle itself, too.
-        const bool is_other =
-            each.track != planned.look.track && each.score >= kSureVehicle && !planned.parts->contains(each.track);
+        const bool is_other = each.track != planned.look.track && each.score >= kSureVehicle &&
+                              !mayBePart(planned.look.track, each.track);
         if (is_other || !shows_vehicle) others.emplace_back(each.box);
     }
     if (!gray.empty() && shows_vehicle) {

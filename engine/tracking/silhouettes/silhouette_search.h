@@ -2,14 +2,13 @@
 
 #include <cstddef>
 #include <map>
-#include <memory>
 #include <opencv2/core/mat.hpp>
 #include <optional>
-#include <set>
 #include <utility>
 #include <vector>
 
 #include "tracking/finishing/track_finishing.h"
+#include "tracking/finishing/track_paths.h"
 #include "tracking/ground_motion.h"
 #include "tracking/silhouettes/extent_grid.h"
 #include "tracking/silhouettes/silhouette_grid.h"
@@ -33,9 +32,9 @@ struct SilhouetteLook {
 std::map<TrackId, double> usualByTrack(const std::vector<SilhouetteLook>& looks, double SilhouetteLook::*figure,
                                        std::size_t fewest_looks);
 
-/// Looks at the vehicles of tracks, each at some moments of its life spread over it, beside pictures from before
-/// and after in which no track covers the ground there. It is shown each picture that it needs once, in ascending
-/// order, and keeps of them what it compares only.
+/// Looks at what tracks follow, surely vehicles or not, each at some moments of its life spread over it, beside
+/// pictures from before and after in which no track covers the ground there. It is shown each picture that it needs
+/// once, in ascending order, and keeps of them what it compares only.
 class SilhouetteSearch {
  public:
     SilhouetteSearch(const std::vector<TrackPath>& paths, const GroundMotion& ground, const SceneScale& scale);
@@ -58,7 +57,6 @@ class SilhouetteSearch {
     /// A look of which not all pictures have come.
     struct Planned {
         SilhouetteLook look;
-        std::shared_ptr<const std::set<TrackId>> parts;  ///< tracks that may be of the same vehicle
         SilhouetteGrid grid;
         ExtentGrid extents;
         std::vector<Ground> grounds = {};
@@ -80,7 +78,10 @@ class SilhouetteSearch {
     void take(Planned& planned, FrameIndex frame, const cv::Mat& gray, const std::vector<TrackBox>& boxes,
               double darkness);
     void look(Planned& planned);
+    /// Whether a track may be of the vehicle of another.
+    bool mayBePart(TrackId vehicle, TrackId track) const;
 
+    PartsByTrack parts_;  ///< tracks that may be of the same vehicle, as they were before anything was made of looks
     std::vector<Planned> planned_;
     std::map<FrameIndex, std::vector<std::size_t>> wanting_;  ///< looks, by the pictures that have not come
     /// What tracks cover there, as they were before anything was made of looks.

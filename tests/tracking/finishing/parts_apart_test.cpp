@@ -27,7 +27,8 @@ struct Lorry {
         onEveryRoad(cab, rear, [&](std::vector<TrackPath> paths) {
             for (auto& [frame, state] : paths[1].states) state.score = static_cast<float>(score);
             ++asked;
-            yes += mayBePartOf(paths[0], paths[1], kFourToAMetre) ? 1 : 0;
+            const PartsByTrack parts = partsBeside(paths, kFourToAMetre);
+            yes += parts.contains(1) && parts.at(1).contains(2) ? 1 : 0;
         });
         EXPECT_TRUE(yes == 0 || yes == asked);
         return yes > 0;
@@ -50,14 +51,25 @@ TEST(PartsApart, MayLieAnywhereInTheLengthAndWidthOfALorry) {
     EXPECT_FALSE(lorry.mayBeOne()) << "in the next lane";
 }
 
+TEST(PartsApart, AreToldWithTheirPlaces) {
+    Lorry lorry;
+    lorry.rear.offset = {-36, 6};
+    onEveryRoad(lorry.cab, lorry.rear, [](std::vector<TrackPath> paths) {
+        for (auto& [frame, state] : paths[0].states) state.score = 0.9F;
+        const PartsByTrack parts = partsBeside(paths, kFourToAMetre);
+        ASSERT_EQ(parts.size(), 1U) << "the cab is no part of the rear: it is surely a vehicle";
+        EXPECT_NEAR(parts.at(1).at(2).x, -9, 1e-3);
+        EXPECT_NEAR(parts.at(1).at(2).y, 1.5, 1e-3);
+    });
+}
+
 TEST(PartsApart, AreNoSureVehicles) {
     Lorry lorry;
     lorry.score = 0.79;
     EXPECT_TRUE(lorry.mayBeOne());
     lorry.score = 0.81;
     EXPECT_FALSE(lorry.mayBeOne());
-    const TrackPath itself = lorry.cab.path();
-    EXPECT_FALSE(mayBePartOf(itself, itself, kFourToAMetre));
+    EXPECT_TRUE(partsBeside({lorry.cab.path()}, kFourToAMetre).empty()) << "nobody is a part of himself";
 }
 
 TEST(PartsApart, KeepTheirDistanceOnAWayThatSaysSomething) {

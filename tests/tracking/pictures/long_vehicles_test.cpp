@@ -59,8 +59,8 @@ struct Looks {
         EXPECT_FLOAT_EQ(paths[1].states[0].second.box.length, 4 * kMetre) << "nobody looked at it";
         EXPECT_FLOAT_EQ(paths[0].states[0].second.box.length, paths[0].states[29].second.box.length);
         const OrientedBox box = paths[0].states[0].second.box;
-        const PartsByVehicle itself{{1, {1}}};
-        EXPECT_EQ(longer, box.length > 4 * kMetre ? itself : PartsByVehicle());
+        const PartsByVehicle alone{{1, {}}};
+        EXPECT_EQ(longer, box.length > 4 * kMetre ? alone : PartsByVehicle());
         return {(box.centre - cv::Point2d(100, 60)) / kMetre, box.length / kMetre, box.width / kMetre, box.heading};
     }
     bool changes() const { return box().length > 4.001; }
@@ -233,7 +233,7 @@ struct LorryInParts {
 
 TEST(LongVehicles, OtherPartsTellThatItIsOneHoweverLittleOfItTheBoxHolds) {
     const auto [box, parts] = LorryInParts().seenAs(-17, 2);
-    EXPECT_EQ(parts, (std::set<TrackId>{1, 2}));
+    EXPECT_EQ(parts, std::set<TrackId>{2});
     EXPECT_NEAR(box.length, 19, 1e-3) << "the longest ones";
     EXPECT_NEAR(box.centre.x, -7.5, 1e-3);
     EXPECT_FALSE(LorryInParts().isSeenWhole(-18.1, 2));
@@ -250,7 +250,7 @@ TEST(LongVehicles, WhatDrivesByItselfOrLiesElsewhereIsNoPart) {
 }
 
 TEST(LongVehicles, TracksOfTheirPartsGo) {
-    const auto left = [](const TrackPath& part, const std::set<TrackId>& fixed = {1}) {
+    const auto left = [](const TrackPath& part, const std::set<TrackId>& fixed = {}) {
         std::vector<TrackPath> paths{pathOf(1, 30), part};
         DropList dropped;
         dropPartsOf({{1, fixed}}, paths, kScale, dropped);
@@ -266,7 +266,7 @@ TEST(LongVehicles, TracksOfTheirPartsGo) {
     EXPECT_TRUE(left(pathOf(2, 30, {111, 64}))) << "ahead of it";
     EXPECT_TRUE(left(pathOf(2, 30, {109, 66}))) << "beside it";
     // Such as drive as if fixed to it reach out over its ends, by 7.5 px, and its sides.
-    EXPECT_FALSE(left(pathOf(2, 30, {117, 70}), {1, 2}));
+    EXPECT_FALSE(left(pathOf(2, 30, {117, 70}), {2}));
     EXPECT_TRUE(left(pathOf(2, 30, {118, 60}), {1, 2})) << "ahead of it";
     EXPECT_FALSE(left(pathOf(2, 20, {100, 60}, 20))) << "half of its life it lies in it";
     EXPECT_TRUE(left(pathOf(2, 21, {100, 60}, 20)));
@@ -283,7 +283,7 @@ TEST(LongVehicles, OfTwoThatWereMadeAsLongAtOnePlaceTheSurerOneStays) {
         std::vector<TrackPath> paths{pathOf(1, 30), pathOf(2, 30), pathOf(3, 30, {100, 90})};
         for (auto& [frame, state] : paths[first_is_surer ? 1 : 0].states) state.score = 0.8F;
         DropList dropped;
-        dropPartsOf({{1, {1}}, {2, {2}}, {3, {3}}}, paths, kScale, dropped);
+        dropPartsOf({{1, {}}, {2, {}}, {3, {}}}, paths, kScale, dropped);
         ASSERT_EQ(paths.size(), 2U);
         EXPECT_EQ(paths[0].id, first_is_surer ? 1 : 2);
         EXPECT_EQ(paths[1].id, 3) << "beside it";
