@@ -75,9 +75,13 @@ const TracedTentative* tentativeOf(const PlaceEvidence& evidence, const TrackSta
 }
 
 std::string tentativeText(const TracedTentative& tentative) {
-    return "track is tentative: detected in " + std::to_string(tentative.hits) + " of its last " +
-           countText(static_cast<std::size_t>(tentative.frames), "frame", "frames") + ", " +
-           std::to_string(tentative.needed) + " within " + std::to_string(tentative.window) + " are needed";
+    std::string text = "track is tentative: detected in " + std::to_string(tentative.hits) + " of its last " +
+                       countText(static_cast<std::size_t>(tentative.frames), "frame", "frames") + ", " +
+                       std::to_string(tentative.needed) + " within " + std::to_string(tentative.window) + " are needed";
+    if (tentative.whole_needed > 0)
+        text += ", or " + std::to_string(tentative.whole_needed) + " detections that look like a whole vehicle (so far " +
+                std::to_string(tentative.whole) + ")";
+    return text;
 }
 
 /// Why a detection that was kept is in no track here.

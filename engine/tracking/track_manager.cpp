@@ -62,6 +62,7 @@ TrackState Track::state() const {
 TrackManager::TrackManager(const TrackerOptions& o, const SceneScale& scale)
     : confirm_hits_(o.confirm_hits),
       confirm_window_(std::max(o.confirm_hits, o.confirm_window)),
+      confirm_whole_(o.confirm_whole),
       max_missing_tentative_(o.max_missing_tentative),
       max_missing_(std::max(2, framesOf(o.max_missing_s, scale))),
       max_stopped_(framesOf(o.max_stopped_s, scale)),
@@ -100,8 +101,7 @@ void TrackManager::count(Track& track, double slow_speed) const {
     if (track.recognised) track.predicted_streak = 1;
 
     if (track.status == TrackStatus::tentative) {
-        const TracedTentative evidence = confirmationOf(track);
-        if (evidence.hits >= evidence.needed) track.status = TrackStatus::confirmed;
+        if (detected && confirmationOf(track).reached()) track.status = TrackStatus::confirmed;
     } else {
         track.status = detected ? TrackStatus::confirmed : TrackStatus::coasting;
     }
@@ -115,8 +115,13 @@ void TrackManager::count(Track& track, double slow_speed) const {
 }
 
 TracedTentative TrackManager::confirmationOf(const Track& track) const {
-    return {track.id, hitsWithin(track.history, confirm_window_), std::min(confirm_window_, track.age + 1),
-            confirm_hits_, confirm_window_};
+    return {track.id,
+            hitsWithin(track.history, confirm_window_),
+            std::min(confirm_window_, track.age + 1),
+            confirm_hits_,
+            confirm_window_,
+            track.whole_boxes,
+            confirm_whole_};
 }
 
 bool TrackManager::mayBeReconstructed(const Track& track) const {

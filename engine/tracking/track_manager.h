@@ -75,6 +75,7 @@ class TrackManager {
 
     int confirm_hits_;
     int confirm_window_;
+    int confirm_whole_;
     int max_missing_tentative_;
     int max_missing_;
     int max_stopped_;

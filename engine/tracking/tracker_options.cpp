@@ -116,12 +116,17 @@ void describeLife(TrackerOptions& o, const ParameterDeclarer& declare) {
         {"frames", "A track is reliable once it was detected this often within confirm_window.", "Teutsch §6.4"});
     declare.integer("tracking.confirm_window", o.confirm_window, 1, 64,
                     {"frames", "Window for confirm_hits; at least as long.", "Teutsch §6.4"});
-    declare.flag(
-        "tracking.follow_rate", o.follow_rate,
-        {"",
-         "Below 8 frames per second confirm_hits shrinks with the rate, to 3 at the least: what crosses the picture "
-         "is not there for longer.",
-         ""});
+    declare.flag("tracking.follow_rate", o.follow_rate,
+                 {"",
+                  "Below 8 frames per second confirm_hits shrinks with the rate, to 4 at the least, and confirm_whole "
+                  "holds: what "
+                  "crosses the picture is not there for longer.",
+                  ""});
+    declare.integer("tracking.confirm_whole", o.confirm_whole, 0, 64,
+                    {"frames",
+                     "Where follow_rate shortens the life that is asked for, a track is reliable, too, once a "
+                     "classifier took so many of its detections for a whole vehicle. 0: never.",
+                     ""});
     declare.integer("tracking.max_missing_tentative", o.max_missing_tentative, 0, 1000,
                     {"frames", "A tentative track is deleted when it was not detected for longer.", "Teutsch §6.4"});
     declare.real("tracking.max_missing", o.max_missing_s, 0, 60,
@@ -251,10 +256,14 @@ void TrackerOptions::describe(ParameterVisitor& visitor) {
 
 TrackerOptions TrackerOptions::atRate(double frame_rate_hz) const {
     constexpr double kSeen_s = 0.6;  // five frames at the rate from which on the count holds
+    constexpr int kFewestHits = 4;
     TrackerOptions here = *this;
-    if (!follow_rate || !(frame_rate_hz * kSeen_s < 5)) return here;
+    if (!follow_rate || !(frame_rate_hz * kSeen_s < 5)) {
+        here.confirm_whole = 0;
+        return here;
+    }
     const int by_time = static_cast<int>(std::lround(confirm_hits * frame_rate_hz * kSeen_s / 5));
-    here.confirm_hits = std::max(by_time, std::min(confirm_hits, 3));
+    here.confirm_hits = std::max(by_time, std::min(confirm_hits, kFewestHits));
     return here;
 }
 
@@ -266,6 +275,7 @@ TrackerOptions TrackerOptions::thesis() {
     options.visible_overlap = false;
     options.max_turn_deg = 180;
     options.follow_rate = false;
+    options.confirm_whole = 0;
     options.split_merge = SplitMergeRule::overlap_matrix;
     options.size_gate = 0;
     options.car_length_m = 0;

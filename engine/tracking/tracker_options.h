@@ -60,6 +60,7 @@ struct TrackerOptions {
     // Life of a track.
     int confirm_hits = 5;
     int confirm_window = 8;
+    int confirm_whole = 2;
     bool follow_rate = true;
     int max_missing_tentative = 2;
     double max_missing_s = 0.3;
@@ -98,8 +99,8 @@ struct TrackerOptions {
     void describe(ParameterVisitor& visitor);
     /// The text of the thesis to the letter, with its optima.
     static TrackerOptions thesis();
-    /// What holds for a video: below 8⅓ frames per second `confirm_hits` shrinks with the rate, to 3 at the least,
-    /// where `follow_rate` says so.
+    /// What holds for a video: below 8⅓ frames per second `confirm_hits` shrinks with the rate, to 4 at the least,
+    /// where `follow_rate` says so; elsewhere `confirm_whole` is 0.
     TrackerOptions atRate(double frame_rate_hz) const;
 };
 

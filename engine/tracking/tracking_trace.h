@@ -43,6 +43,10 @@ struct TracedTentative {
     int frames = 0;  ///< `window`, or as many as the track has
     int needed = 0;  ///< detections within `window`
     int window = 0;
+    int whole = 0;         ///< detections that a classifier took for a whole vehicle
+    int whole_needed = 0;  ///< of them, which would do, too; 0: not asked
+
+    bool reached() const { return hits >= needed || (whole_needed > 0 && whole >= whole_needed); }
 };
 
 /// How a frame's detections and tracks were joined, to be looked at.

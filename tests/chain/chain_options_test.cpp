@@ -325,6 +325,7 @@ TEST(ChainOptions, theThesisPresetDiffersFromTheDefaultsWhereItMust) {
         {"tracking.max_turn", "180"},
         {"tracking.split_merge", "overlap_matrix"},
         {"tracking.follow_rate", "false"},
+        {"tracking.confirm_whole", "0"},
         {"tracking.size_gate", "0"},
         {"tracking.one_vehicle", "0"},
         {"tracking.min_vectors", "1"},

@@ -162,6 +162,10 @@ TEST(RecordedByHand, FewerFramesThanATrackIsDetectedInAreTooFew) {
     EXPECT_EQ(factsOf(8, still, options).frames_needed, 8);
     const int slowly = options.tracking.atRate(5).confirm_hits;
     ASSERT_LT(slowly, 7);
+    EXPECT_EQ(factsOf(8, still, options, 5).frames_needed, 3) << "two whole vehicles would do";
+    options.tracking.confirm_whole = 0;
+    EXPECT_EQ(factsOf(8, still, options, 5).frames_needed, slowly + 1);
+    options.tracking.confirm_whole = 60;
     EXPECT_EQ(factsOf(8, still, options, 5).frames_needed, slowly + 1);
     EXPECT_EQ(factsOf(0, still).nothing, NothingFollowed::no_frames);
 }

@@ -245,6 +245,10 @@ TEST(Explanation, tentativeTrackCountsItsDetections) {
         told.sentence,
         "The track is tentative: detected in 3 of its last 8 frames, 5 within 8 are needed: tracking.confirm_hits = "
         "5 frames.");
+    evidence.tracking->tentative = {{7, 1, 2, 4, 8, 1, 2}};
+    EXPECT_EQ(explained(evidence, test::withoutDensity(), test::kPlaceScale).sentence,
+              "The track is tentative: detected in 1 of its last 2 frames, 4 within 8 are needed, or 2 detections that "
+              "look like a whole vehicle (so far 1): tracking.confirm_hits = 5 frames.");
 }
 
 TEST(Explanation, trackThatEndedForWantOfEvidence) {

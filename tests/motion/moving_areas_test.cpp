@@ -322,6 +322,76 @@ TEST(MovingAreas, TheGapIsATimeInFrames) {
     EXPECT_EQ(frames(10, 25), 30);
 }
 
+/// A car that is hardly brighter than its road, in noise, goes 40 px from picture to picture.
+std::vector<MotionVector> inferredOfGreyCar(const MovingAreaOptions& options, double frame_rate_hz) {
+    CarScene scene = sceneWith({40, 0});
+    scene.camera_per_frame = {0, 0};
+    MovingAreas areas(options, {0.32, frame_rate_hz, true});
+    for (int index = 0; index < 3; ++index) {
+        cv::Mat gray(scene.size, CV_8UC1, cv::Scalar(100));
+        const cv::Rect body(cv::Point(scene.carAt(index) - cv::Point2d(10, 5)), cv::Size(20, 10));
+        gray(body) = 110;
+        gray(cv::Rect(body.tl() + cv::Point(5, 2), cv::Size(5, 6))) = 80;
+        cv::RNG random(static_cast<std::uint64_t>(index) + 1);
+        cv::Mat drawn(gray.size(), CV_16SC1);
+        random.fill(drawn, cv::RNG::NORMAL, 0, 5);
+        cv::add(gray, drawn, gray, cv::noArray(), CV_8U);
+        areas.add({index, index * 500000, gray, {}}, panned(scene, index));
+    }
+    return areas.infer(starved(scene), [](cv::Point2d) { return 0.1; });
+}
+
+TEST(MovingAreas, OfGreyCarsOnGreyRoadsAreFoundAtLowerDifferencesInASlowVideo) {
+    MovingAreaOptions high;
+    high.area_noise_factor = 20;
+    const auto vectors = inferredOfGreyCar(high, 2);
+    ASSERT_THAT(vectors, Not(IsEmpty()));
+    std::set<std::pair<double, double>> places;
+    for (const MotionVector& vector : vectors) {
+        EXPECT_NEAR(vector.velocity.x, 40, 0.5);
+        EXPECT_NEAR(vector.velocity.y, 0, 0.5);
+        EXPECT_TRUE(places.insert({vector.position.x, vector.position.y}).second) << "each threshold finds it again";
+    }
+    high.area_low_rate_noise_factor = high.area_noise_factor;
+    EXPECT_THAT(inferredOfGreyCar(high, 2), IsEmpty());
+}
+
+TEST(AreaMatching, LooksBothWaysForAWayThatBothPicturesShow) {
+    // What looks the same, only better, lies in the later picture as well as in the earlier one, but on no way.
+    const CarScene scene = sceneWith({0, 0});
+    const cv::Mat from = scene.draw(0);
+    const cv::Rect car(140, 114, 20, 12);
+    std::vector<cv::Point> pixels;
+    for (int y = car.y; y < car.br().y; ++y) {
+        for (int x = car.x; x < car.br().x; ++x) pixels.emplace_back(x, y);
+    }
+    const cv::Mat road(from.size(), CV_8UC1, cv::Scalar(110));
+    cv::Mat faded;
+    cv::addWeighted(from(car), 0.5, from(cv::Rect(40, 50, 20, 12)), 1, 0, faded);
+    const auto with = [&](cv::Point way, cv::Point decoy) {
+        cv::Mat picture = road.clone();
+        faded.copyTo(picture(car + way));
+        from(car).copyTo(picture(car + decoy));
+        return picture;
+    };
+    const cv::Mat later = with({31, 4}, {-40, 20});
+    const cv::Mat earlier = with({-30, -5}, {-20, -60});
+    const auto alone = matchArea(pixels, from, later, {0, 0}, 70);
+    ASSERT_TRUE(alone);
+    EXPECT_NEAR(alone->shift.x, -40, 0.3) << "the decoy is what is looked for";
+    const auto way = matchWay(pixels, from, later, earlier, {0, 0}, 70, 0.1);
+    ASSERT_TRUE(way);
+    EXPECT_LT(cv::norm(way->on.shift - cv::Point2d(31, 4)), 0.5) << way->on.shift;
+    EXPECT_LT(cv::norm(way->came.shift - cv::Point2d(-30, -5)), 0.5) << way->came.shift;
+    EXPECT_EQ(way->correlation(), std::min(way->on.correlation, way->came.correlation));
+    EXPECT_GT(way->correlation(), 0.7);
+    EXPECT_LT(way->correlation(), 0.99);
+
+    EXPECT_FALSE(matchWay({}, from, later, earlier, {0, 0}, 70, 0.1));
+    EXPECT_FALSE(matchWay(pixels, road, later, earlier, {0, 0}, 70, 0.1)) << "plain";
+    EXPECT_FALSE(matchWay(pixels, from, later, earlier, {161, 0}, 70, 0.1)) << "a pixel must be left at the border";
+}
+
 TEST(AreaMatching, FindsTheShiftToAFractionOfAPixel) {
     const CarScene scene = sceneWith({0, 0});
     const cv::Mat from = scene.draw(0);

@@ -243,13 +243,38 @@ TEST(TrackerThresholds, WhereTheVideoIsSlowFewerHitsConfirmATrack) {
     EXPECT_EQ(framesUntilConfirmed({}, 25), 5);
     EXPECT_EQ(framesUntilConfirmed({}, 10), 5);
     EXPECT_EQ(framesUntilConfirmed({}, 6.5), 4);
-    EXPECT_EQ(framesUntilConfirmed({}, 2), 3);
+    EXPECT_EQ(framesUntilConfirmed({}, 2), 4);
     TrackerOptions counted;
     counted.follow_rate = false;
     EXPECT_EQ(framesUntilConfirmed(counted, 2), 5);
     counted = {};
     counted.confirm_hits = 2;
     EXPECT_EQ(framesUntilConfirmed(counted, 2), 2) << "never more than asked for";
+}
+
+TEST(TrackerThresholds, WhereTheVideoIsSlowTwoWholeVehiclesConfirmATrack) {
+    // Which of its detections a classifier takes for a whole vehicle, one letter a frame.
+    const auto framesUntilConfirmed = [](const std::string& looks, double frame_rate_hz, const TrackerOptions& options) {
+        test::MovingScene scene;
+        scene.scale.frame_rate_hz = frame_rate_hz;
+        scene.objects = {{{100, 240}, {6, 0}, 40, 14, 0}};
+        Tracker tracker(options, scene.scale);
+        for (int frame = 0; frame < 12; ++frame) {
+            auto detections = scene.detections(frame);
+            const auto at = static_cast<std::size_t>(frame);
+            for (Detection& detection : detections) detection.complete = at < looks.size() && looks[at] == 'w';
+            const auto states = tracker.next(scene.motion(frame), detections);
+            if (!states.empty() && states[0].status == TrackStatus::confirmed) return frame + 1;
+        }
+        return 0;
+    };
+    EXPECT_EQ(framesUntilConfirmed("ww", 2, {}), 2);
+    EXPECT_EQ(framesUntilConfirmed("w-w", 2, {}), 3);
+    EXPECT_EQ(framesUntilConfirmed("w--", 2, {}), 4) << "one is not enough";
+    EXPECT_EQ(framesUntilConfirmed("wwww", 10, {}), 5) << "where there are pictures enough they are asked for";
+    EXPECT_EQ(framesUntilConfirmed("www", 2, with("tracking.confirm_whole", "3")), 3);
+    EXPECT_EQ(framesUntilConfirmed("www", 2, with("tracking.confirm_whole", "0")), 4);
+    EXPECT_EQ(framesUntilConfirmed("www", 2, with("tracking.follow_rate", "false")), 5);
 }
 
 TEST(TrackerThresholds, FewerHitsAreAsManyAsFitInSixTenthsOfASecond) {
@@ -263,9 +288,9 @@ TEST(TrackerThresholds, FewerHitsAreAsManyAsFitInSixTenthsOfASecond) {
     EXPECT_EQ(hitsAt(8, 20), 19);
     EXPECT_EQ(hitsAt(5, 20), 12);
     EXPECT_EQ(hitsAt(7), 4);
-    EXPECT_EQ(hitsAt(5), 3);
-    EXPECT_EQ(hitsAt(1), 3);
-    EXPECT_EQ(hitsAt(1, 20), 3) << "2.4, which is too few";
+    EXPECT_EQ(hitsAt(5), 4) << "3, which is too few";
+    EXPECT_EQ(hitsAt(1), 4);
+    EXPECT_EQ(hitsAt(1, 20), 4) << "2.4, which is too few";
     EXPECT_EQ(hitsAt(1, 2), 2);
     EXPECT_EQ(TrackerOptions::thesis().atRate(1).confirm_hits, 5);
 }

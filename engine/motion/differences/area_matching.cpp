@@ -13,6 +13,8 @@ constexpr double kPlain = 2;  ///< grey values; areas that deviate less have not
 constexpr int kFineReach = 2;           ///< px around the best of every other shift
 constexpr std::size_t kFewPixels = 48;  ///< that every other shift is tried with
 constexpr std::size_t kMostPixels = 65'000;
+constexpr int kGiveCells = 2;  ///< shifts that lie so many steps of the coarse search apart may be one way
+constexpr int kWaysTried = 4;  ///< of the coarse search
 
 /// Where the parabola through three equidistant values has its top, −½ … ½ around the middle one.
 double topOf(double before, double middle, double after) {
@@ -82,32 +84,97 @@ cv::Point bestShift(const Pattern& pattern, cv::Point around, int reach, int ste
     return best;
 }
 
+/// Shifts that keep an area inside a picture, with a pixel around it for the fraction.
+cv::Rect shiftsInside(const cv::Rect& area, cv::Size picture) {
+    return {cv::Point(1, 1) - area.tl(), picture - area.size() - cv::Size(1, 1)};
+}
+
+bool isPlain(const Pattern& pattern) {
+    return pattern.spread() < kPlain * kPlain * pattern.count();
+}
+
+/// The match at a shift, to a fraction of a pixel.
+AreaMatch matchAt(const Pattern& pattern, cv::Point shift) {
+    const auto at = [&](int dx, int dy) { return pattern.correlation(shift + cv::Point(dx, dy)); };
+    AreaMatch match;
+    match.correlation = at(0, 0);
+    match.shift = cv::Point2d(shift) + cv::Point2d(topOf(at(-1, 0), match.correlation, at(1, 0)),
+                                                   topOf(at(0, -1), match.correlation, at(0, 1)));
+    return match;
+}
+
+/// Every how many of an area's pixels a coarse search looks at.
+std::size_t coarseStep(const std::vector<cv::Point>& pixels) {
+    return std::max<std::size_t>(1, pixels.size() / kFewPixels);
+}
+
+/// Correlations at every other shift up to `cells` of them around `around`, in rows and columns, or at the opposite
+/// ones where `way` is −1; −2 where the area would not stay inside.
+cv::Mat1f coarseCorrelations(const Pattern& pattern, cv::Point around, int cells, int way, const cv::Rect& allowed) {
+    cv::Mat1f all(2 * cells + 1, 2 * cells + 1, -2.0F);
+    for (int y = 0; y < all.rows; ++y) {
+        for (int x = 0; x < all.cols; ++x) {
+            const cv::Point shift = around + 2 * way * cv::Point(x - cells, y - cells);
+            if (allowed.contains(shift)) all(y, x) = static_cast<float>(pattern.correlation(shift));
+        }
+    }
+    return all;
+}
+
 }  // namespace
 
 std::optional<AreaMatch> matchArea(const std::vector<cv::Point>& pixels, const cv::Mat& from, const cv::Mat& to,
                                    cv::Point around, int reach) {
     if (pixels.empty() || pixels.size() > kMostPixels) return std::nullopt;
     const cv::Rect bounds = cv::boundingRect(pixels);
-    // Wholly inside, with a pixel around for the fraction.
-    const cv::Rect allowed(cv::Point(1, 1) - bounds.tl(), to.size() - bounds.size() - cv::Size(1, 1));
+    const cv::Rect allowed = shiftsInside(bounds, to.size());
     if (!allowed.contains(around)) return std::nullopt;
     const Pattern pattern(pixels, 1, from, to);
-    if (pattern.spread() < kPlain * kPlain * pattern.count()) return std::nullopt;
+    if (isPlain(pattern)) return std::nullopt;
     cv::Point best = around;
     if (reach > 2 * kFineReach) {
         // Every other shift with some of the pixels shows where to look closely.
-        const Pattern some(pixels, std::max<std::size_t>(1, pixels.size() / kFewPixels), from, to);
+        const Pattern some(pixels, coarseStep(pixels), from, to);
         best = bestShift(some, around, reach, 2, allowed);
         best = bestShift(pattern, best, kFineReach, 1, allowed);
     } else {
         best = bestShift(pattern, around, reach, 1, allowed);
     }
-    const auto at = [&](int dx, int dy) { return pattern.correlation(best + cv::Point(dx, dy)); };
-    AreaMatch match;
-    match.correlation = at(0, 0);
-    match.shift = cv::Point2d(best) + cv::Point2d(topOf(at(-1, 0), match.correlation, at(1, 0)),
-                                                  topOf(at(0, -1), match.correlation, at(0, 1)));
-    return match;
+    return matchAt(pattern, best);
+}
+
+std::optional<AreaWay> matchWay(const std::vector<cv::Point>& pixels, const cv::Mat& from, const cv::Mat& later,
+                                const cv::Mat& earlier, cv::Point around, int reach, double give) {
+    if (pixels.empty() || pixels.size() > kMostPixels) return std::nullopt;
+    const cv::Rect allowed = shiftsInside(cv::boundingRect(pixels), later.size());
+    if (!allowed.contains(around)) return std::nullopt;
+    const Pattern on(pixels, 1, from, later);
+    if (isPlain(on)) return std::nullopt;
+    const Pattern came(pixels, 1, from, earlier);
+
+    const int cells = reach / 2;
+    const std::size_t step = coarseStep(pixels);
+    cv::Mat1f both = coarseCorrelations(Pattern(pixels, step, from, earlier), around, cells, -1, allowed);
+    cv::dilate(both, both, cv::Mat1b::ones(2 * kGiveCells + 1, 2 * kGiveCells + 1));
+    both += coarseCorrelations(Pattern(pixels, step, from, later), around, cells, 1, allowed);
+
+    std::optional<AreaWay> best;
+    for (int tried = 0; tried < kWaysTried; ++tried) {
+        double sum = 0;
+        cv::Point cell;
+        cv::minMaxLoc(both, nullptr, &sum, nullptr, &cell);
+        if (!(sum > 0)) break;
+        const cv::Rect near(cell - cv::Point(2, 2), cv::Size(5, 5));
+        both(near & cv::Rect({}, both.size())) = -4;
+        const cv::Point there = bestShift(on, around + 2 * (cell - cv::Point(cells, cells)), kFineReach, 1, allowed);
+        const cv::Point shift = there - around;
+        const int differs = std::max(kFineReach, cvRound(give * std::hypot(shift.x, shift.y)));
+        if (!allowed.contains(around - shift)) continue;
+        const cv::Point whence = bestShift(came, around - shift, differs, 1, allowed);
+        const AreaWay way{matchAt(on, there), matchAt(came, whence)};
+        if (!best || way.correlation() > best->correlation()) best = way;
+    }
+    return best;
 }
 
 }  // namespace eyrie

@@ -25,6 +25,7 @@ constexpr double kMaxSpeed = 40;          ///< m/s
 constexpr int kLongestReach = 100;        ///< px
 constexpr int kReturnReach = 2;           ///< px by which the way back may differ from the way on …
 constexpr double kReturnShare = 0.1;      ///< … or this share of the way: vehicles brake and turn
+constexpr double kLowerStep = 0.7;        ///< from one threshold of differences to the next lower one
 constexpr std::size_t kEnough = 3;        ///< vectors with which a vehicle needs no more
 constexpr double kAlike = 0.3;            ///< difference of velocities, as a share of the speed …
 constexpr double kAlikePx = 0.4;          ///< … and px/frame
@@ -208,6 +209,11 @@ void MovingAreaOptions::describe(ParameterVisitor& visitor) {
                   ""});
     declare.real("motion.area_low_rate_correlation", area_low_rate_correlation, -1, 1,
                  {"", "Lowest correlation there: a vehicle looks different by then.", ""});
+    declare.real("motion.area_low_rate_noise_factor", area_low_rate_noise_factor, 0.1, 100,
+                 {"",
+                  "There areas are looked for at lower and lower differences, too, down to this many deviations, where "
+                  "none moves at higher ones: grey vehicles on grey roads. As large as motion.area_noise_factor: no.",
+                  ""});
 }
 
 int MovingAreaOptions::gapFrames(const SceneScale& scale) const {
@@ -225,7 +231,7 @@ void MovingAreas::add(const Frame& frame, const Registration& registration) {
         frames_.add(frame, registration);
 }
 
-std::vector<DifferingArea> MovingAreas::differingAreas() const {
+MovingAreas::Difference MovingAreas::difference() const {
     const cv::Mat now = halved(frames_.newest());
     const auto earlier = [&](int back, cv::Mat& inside) {
         const cv::Mat half = halved(frames_.picture(back));
@@ -254,9 +260,13 @@ std::vector<DifferingArea> MovingAreas::differingAreas() const {
     cv::absdiff(smoothed(now), before, difference);
     cv::absdiff(before, long_before, earlier_difference);
     cv::min(difference, earlier_difference, difference);
-    const double threshold = std::max(options_.area_noise_factor * noiseOf(difference), options_.area_contrast);
-    const cv::Mat differs = (difference > threshold) & in_before & in_long_before;
-    return areasOf(differs, [&](cv::Point2d half) -> AreaLimits {
+    const double noise = noiseOf(difference);
+    return {difference & in_before & in_long_before, noise};
+}
+
+std::vector<DifferingArea> MovingAreas::areasFrom(const Difference& difference, double noise_factor) const {
+    const double threshold = std::max(noise_factor * difference.noise, options_.area_contrast);
+    return areasOf(difference.gray > threshold, [&](cv::Point2d half) -> AreaLimits {
         const SceneScale here = scale_.at(2 * half);
         const double half_px_per_m = here.px(1) / 2;
         const int fewest = cvRound(options_.area_min_size_m2 * half_px_per_m * half_px_per_m);
@@ -264,12 +274,25 @@ std::vector<DifferingArea> MovingAreas::differingAreas() const {
     });
 }
 
-std::optional<cv::Point2d> MovingAreas::shiftOf(const DifferingArea& area, double min_correlation) const {
+std::vector<double> MovingAreas::noiseFactors() const {
+    std::vector<double> factors{options_.area_noise_factor};
+    while (isLowRate() && factors.back() * kLowerStep >= options_.area_low_rate_noise_factor)
+        factors.push_back(factors.back() * kLowerStep);
+    return factors;
+}
+
+std::optional<cv::Point2d> MovingAreas::shiftOf(const DifferingArea& area, double min_correlation,
+                                                const cv::Mat& long_before) const {
     const cv::Rect bounds = grownBounds(area);
     const std::vector<cv::Point> pixels = grownPixels(area, bounds);
     const cv::Mat before = partOf(frames_.picture(gap_), frames_.pathTo(gap_), bounds);
     const double fastest = scale_.at(middleOf(bounds)).pxPerFrame(kMaxSpeed);
     const int reach = std::clamp(static_cast<int>(std::ceil(fastest * gap_)), 4, kLongestReach);
+    if (isLowRate()) {
+        const auto way = matchWay(pixels, before, frames_.newest(), long_before, bounds.tl(), reach, kReturnShare);
+        if (!way || way->correlation() < min_correlation) return std::nullopt;
+        return way->on.shift - cv::Point2d(bounds.tl());
+    }
     const auto on = matchArea(pixels, before, frames_.newest(), bounds.tl(), reach);
     if (!on || on->correlation < min_correlation) return std::nullopt;
     const cv::Point2d shift = on->shift - cv::Point2d(bounds.tl());
@@ -279,17 +302,54 @@ std::optional<cv::Point2d> MovingAreas::shiftOf(const DifferingArea& area, doubl
     const int margin = return_reach + 4;
     const cv::Rect whence(bounds.x + back.x - margin, bounds.y + back.y - margin, bounds.width + 2 * margin,
                           bounds.height + 2 * margin);
-    const cv::Mat long_before = partOf(frames_.picture(2 * gap_), frames_.pathTo(2 * gap_), whence);
-    const auto came = matchArea(pixels, before, long_before, {margin, margin}, return_reach);
+    const cv::Mat earlier = partOf(frames_.picture(2 * gap_), frames_.pathTo(2 * gap_), whence);
+    const auto came = matchArea(pixels, before, earlier, {margin, margin}, return_reach);
     if (!came || came->correlation < min_correlation) return std::nullopt;
     return shift;
 }
 
 std::optional<double> MovingAreas::correlationNeeded(const FrameMotion& motion, cv::Point2d place) const {
-    if (scale_.frame_rate_hz < options_.area_low_rate_hz) return options_.area_low_rate_correlation;
+    if (isLowRate()) return options_.area_low_rate_correlation;
     const double corners_on_car = cornersOnCar(motion, scale_.at(place));
     if (corners_on_car >= options_.area_max_corners) return std::nullopt;
     return corners_on_car < options_.area_few_corners ? options_.area_min_correlation : options_.area_sure_correlation;
+}
+
+std::vector<std::optional<cv::Point2d>> MovingAreas::shiftsOf(const std::vector<DifferingArea>& areas,
+                                                              const FrameMotion& motion,
+                                                              const std::function<double(cv::Point2d)>& min_speed,
+                                                              const cv::Mat& long_before) const {
+    std::vector<std::optional<cv::Point2d>> shifts(areas.size());
+    // Written by index, so that the result does not depend on the number of threads.
+    cv::parallel_for_(cv::Range(0, static_cast<int>(areas.size())), [&](const cv::Range& range) {
+        for (int i = range.start; i < range.end; ++i) {
+            const auto at = static_cast<std::size_t>(i);
+            const cv::Point2d place = middleOf(grownBounds(areas[at]));
+            const auto min_correlation = correlationNeeded(motion, place);
+            if (!min_correlation) continue;
+            const auto shift = shiftOf(areas[at], *min_correlation, long_before);
+            if (shift && std::hypot(shift->x, shift->y) >= std::max(options_.area_min_shift, min_speed(place) * gap_))
+                shifts[at] = shift;
+        }
+    });
+    return shifts;
+}
+
+void MovingAreas::addVectors(const DifferingArea& area, cv::Point2d shift, const FrameMotion& motion,
+                             std::vector<MotionVector>& inferred) {
+    const cv::Point2d velocity = shift / gap_;
+    const double alike = std::max(kAlikePx, kAlike * std::hypot(velocity.x, velocity.y));
+    const cv::Rect bounds = grownBounds(area);
+    const cv::Rect2d place = cv::Rect2d(bounds) + shift;
+    std::size_t known = 0;
+    for (const MotionVector& vector : motion.motion_vectors) {
+        const cv::Point2d difference_of = cv::Point2d(vector.velocity) - velocity;
+        if (place.contains(cv::Point2d(vector.position)) && std::hypot(difference_of.x, difference_of.y) <= alike)
+            ++known;
+    }
+    if (known >= kEnough) return;
+    const double spacing = std::max(kVectorSpacingPx, scale_.at(middleOf(bounds)).px(kVectorSpacing));
+    for (const cv::Point2d& p : spread(area, spacing)) inferred.push_back({next_id_++, p + shift, velocity, 0});
 }
 
 std::vector<MotionVector> MovingAreas::infer(const FrameMotion& motion,
@@ -306,37 +366,20 @@ std::vector<MotionVector> MovingAreas::infer(const FrameMotion& motion,
         const Homography path = frames_.pathTo(back);
         if (!isSane(path, size) || !isSane(path.inverse(), size)) return inferred;
     }
-    const std::vector<DifferingArea> areas = differingAreas();
-    std::vector<std::optional<cv::Point2d>> shifts(areas.size());
-    // Written by index, so that the result does not depend on the number of threads.
-    cv::parallel_for_(cv::Range(0, static_cast<int>(areas.size())), [&](const cv::Range& range) {
-        for (int i = range.start; i < range.end; ++i) {
-            const auto at = static_cast<std::size_t>(i);
-            const cv::Point2d place = middleOf(grownBounds(areas[at]));
-            const auto min_correlation = correlationNeeded(motion, place);
-            if (!min_correlation) continue;
-            const auto shift = shiftOf(areas[at], *min_correlation);
-            if (shift && std::hypot(shift->x, shift->y) >= std::max(options_.area_min_shift, min_speed(place) * gap_))
-                shifts[at] = shift;
+    const Difference difference = this->difference();
+    const cv::Mat long_before = isLowRate() ? frames_.past(2 * gap_).gray : cv::Mat();
+    cv::Mat1b moving = cv::Mat1b::zeros(difference.gray.size());
+    for (const double factor : noiseFactors()) {
+        std::vector<DifferingArea> areas = areasFrom(difference, factor);
+        std::erase_if(areas, [&](const DifferingArea& area) {
+            return std::any_of(area.pixels.begin(), area.pixels.end(), [&](cv::Point p) { return moving(p) != 0; });
+        });
+        const auto shifts = shiftsOf(areas, motion, min_speed, long_before);
+        for (std::size_t i = 0; i < areas.size(); ++i) {
+            if (!shifts[i]) continue;
+            for (const cv::Point& p : areas[i].pixels) moving(p) = 255;
+            addVectors(areas[i], *shifts[i], motion, inferred);
         }
-    });
-
-    for (std::size_t i = 0; i < areas.size(); ++i) {
-        if (!shifts[i]) continue;
-        const cv::Point2d velocity = *shifts[i] / gap_;
-        const double alike = std::max(kAlikePx, kAlike * std::hypot(velocity.x, velocity.y));
-        const cv::Rect2d place = cv::Rect2d(grownBounds(areas[i])) + *shifts[i];
-        std::size_t known = 0;
-        for (const MotionVector& vector : motion.motion_vectors) {
-            const cv::Point2d difference_of = cv::Point2d(vector.velocity) - velocity;
-            if (place.contains(cv::Point2d(vector.position)) && std::hypot(difference_of.x, difference_of.y) <= alike)
-                ++known;
-        }
-        if (known >= kEnough) continue;
-        const double spacing =
-            std::max(kVectorSpacingPx, scale_.at(middleOf(grownBounds(areas[i]))).px(kVectorSpacing));
-        for (const cv::Point2d& p : spread(areas[i], spacing))
-            inferred.push_back({next_id_++, p + *shifts[i], velocity, 0});
     }
     return inferred;
 }

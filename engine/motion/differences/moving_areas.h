@@ -26,9 +26,10 @@ struct MovingAreaOptions {
     double area_max_length_m = 20;      ///< longer ones neither
     double area_min_shift = 1.5;        ///< between two of the pictures; smaller shifts may be misregistration
     double area_min_correlation = 0.8;  ///< of an area's pixels with where they went …
-    double area_sure_correlation = 0.93;     ///< … where corners nearly suffice
-    double area_low_rate_hz = 8;             ///< below, areas are used whatever the corners …
-    double area_low_rate_correlation = 0.6;  ///< … from this correlation on
+    double area_sure_correlation = 0.93;      ///< … where corners nearly suffice
+    double area_low_rate_hz = 8;              ///< below, areas are used whatever the corners …
+    double area_low_rate_correlation = 0.6;   ///< … from this correlation on …
+    double area_low_rate_noise_factor = 2.5;  ///< … and at ever lower differences, down to this factor
 
     /// Frames between two of the three pictures that are compared.
     int gapFrames(const SceneScale& scale) const;
@@ -46,7 +47,8 @@ struct DifferingArea {
 /// newest picture and the oldest: where it went shows its velocity, and that it is the same thing in all three. What
 /// stands and only seems to differ, at edges, does not go anywhere. Areas that hold vectors of corners already get
 /// none. Below `area_low_rate_hz` a vehicle goes too far for its corners to be followed, so that areas are looked at
-/// whatever it carries.
+/// whatever it carries, and the ways to both pictures are looked for together, since much is in reach; grey vehicles on
+/// grey roads differ little, so that lower thresholds are tried where nothing moved above them.
 class MovingAreas {
  public:
     MovingAreas(const MovingAreaOptions& options, const SceneScale& scale);
@@ -64,13 +66,30 @@ class MovingAreas {
     void transfer(Archive& archive);
 
  private:
-    /// Where the newest picture, the one before and the one long before differ, as seen in the newest, at the places
-    /// of the one before.
-    std::vector<DifferingArea> differingAreas() const;
+    /// How the newest picture, the one before and the one long before differ, halved, as seen in the newest, at the
+    /// places of the one before.
+    struct Difference {
+        cv::Mat gray;      ///< CV_8UC1, 0 where one of them shows nothing
+        double noise = 0;  ///< grey values
+    };
+    Difference difference() const;
+    std::vector<DifferingArea> areasFrom(const Difference& difference, double noise_factor) const;
+    bool isLowRate() const { return scale_.frame_rate_hz < options_.area_low_rate_hz; }
+    /// From the highest down to the lowest that areas are looked for from.
+    std::vector<double> noiseFactors() const;
     /// Lowest correlation that an area at a place of a frame needs; nothing where corners suffice.
     std::optional<double> correlationNeeded(const FrameMotion& motion, cv::Point2d place) const;
     /// px from the picture before to the newest, over the ground; nothing where the area is not one thing that moves.
-    std::optional<cv::Point2d> shiftOf(const DifferingArea& area, double min_correlation) const;
+    /// `long_before`: as seen in the newest, at a low rate.
+    std::optional<cv::Point2d> shiftOf(const DifferingArea& area, double min_correlation,
+                                       const cv::Mat& long_before) const;
+    /// The same of all areas, where they are faster than `min_speed`.
+    std::vector<std::optional<cv::Point2d>> shiftsOf(const std::vector<DifferingArea>& areas, const FrameMotion& motion,
+                                                     const std::function<double(cv::Point2d)>& min_speed,
+                                                     const cv::Mat& long_before) const;
+    /// Vectors on an area that moved by `shift`, but where the frame has enough already.
+    void addVectors(const DifferingArea& area, cv::Point2d shift, const FrameMotion& motion,
+                    std::vector<MotionVector>& inferred);
 
     MovingAreaOptions options_;
     SceneScale scale_;
