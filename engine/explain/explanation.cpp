@@ -223,7 +223,7 @@ bool tellCorners(Story& story) {
             found += evidence.area.contains(corner, kOutlineMargin_px);
     }
     if (found == 0) {
-        const int most = story.options.registration.corners.max_corners;
+        const int most = story.options.registration.corners.mostCorners(motion.image_size);
         const bool full = motion.corner_count >= most * 95 / 100;
         story.fail("corners", "no corner was tracked here",
                    full ? "registration.max_corners" : "registration.corner_deviation");

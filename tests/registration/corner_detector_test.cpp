@@ -202,6 +202,18 @@ TEST(CornerDetector, theCapIsUsedUp) {
     EXPECT_TRUE(detector.detect(picture, surroundings).empty());
 }
 
+TEST(CornerDetector, aLargePictureMayHaveMoreCornersUpToTwiceAsMany) {
+    CornerOptions options;
+    options.max_corners = 400;
+    options.favour_movers = false;
+    for (const auto& [size, most] : {std::pair(cv::Size(1280, 720), 400), std::pair(cv::Size(1440, 900), 562),
+                                     std::pair(cv::Size(1920, 1080), 800), std::pair(cv::Size(2560, 1440), 800)}) {
+        cv::Mat gray;
+        cv::repeat(ground(1, 2), size.height / 240 + 1, size.width / 320 + 1, gray);
+        EXPECT_NEAR(static_cast<double>(detect(gray(cv::Rect({}, size)), options).size()), most, 1) << size;
+    }
+}
+
 TEST(CornerDetector, underTheCapTheStrongestOfAPartStay) {
     // Half the picture has a third of the contrast; in each half those kept are stronger than most.
     CornerOptions options;

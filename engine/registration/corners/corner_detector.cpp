@@ -16,6 +16,8 @@ namespace {
 
 /// Share of the cap that corners away from moving objects may use.
 constexpr double kOrdinaryShare = 0.85;
+constexpr double kUsualArea = 1280.0 * 720;  ///< px², from which on pictures have more corners …
+constexpr double kMostOfUsual = 2;           ///< … up to so many times as many
 
 std::vector<StrengthPeak> allPeaks(const PaddedPicture& picture, const StrengthLimits& limits) {
     constexpr int kRowsPerStrip = 48;
@@ -176,7 +178,9 @@ void CornerOptions::describe(ParameterVisitor& visitor) {
     declare.integer(
         "registration.max_corners", max_corners, 100, 50000,
         {"",
-         "Largest number of corners tracked at a time; above it they are thinned out evenly, least near moving ones.",
+         "Largest number of corners tracked at a time in a picture of up to 1280×720; a larger one has more "
+         "by its area, twice as many at the most. Above it they are thinned out evenly, least near moving "
+         "ones.",
          ""});
     declare.real(
         "registration.corner_deviation", corner_deviation, 0.05, 5,
@@ -196,6 +200,10 @@ void CornerOptions::describe(ParameterVisitor& visitor) {
                     {"px", "Side of the window over which the structure tensor is summed; even numbers round up.", ""});
 }
 
+int CornerOptions::mostCorners(cv::Size image) const {
+    return cvRound(max_corners * std::clamp(image.area() / kUsualArea, 1.0, kMostOfUsual));
+}
+
 CornerDetector::CornerDetector(const CornerOptions& options, const SceneScale& scale)
     : options_(options),
       spacing_px_(std::clamp(scale.px(options.corner_spacing_m), options.min_corner_distance, 64.0)) {}
@@ -210,10 +218,11 @@ std::vector<cv::Point2f> CornerDetector::detect(const PaddedPicture& picture,
     limits.margin = std::max(surroundings.margin, limits.window_radius + 3);
     const cv::Size size(picture.width(), picture.height());
     std::vector<cv::Point2f> corners;
-    const int room = options_.max_corners - static_cast<int>(surroundings.living.size());
+    const int most = options_.mostCorners(size);
+    const int room = most - static_cast<int>(surroundings.living.size());
     if (room <= 0 || size.width <= 2 * limits.margin || size.height <= 2 * limits.margin) return corners;
 
-    const double cap = (options_.favour_movers ? kOrdinaryShare : 1.0) * options_.max_corners;
+    const double cap = (options_.favour_movers ? kOrdinaryShare : 1.0) * most;
     const int ordinary = static_cast<int>(cap) - static_cast<int>(surroundings.living.size());
     const std::vector<cv::Point2f> moving = options_.favour_movers ? surroundings.movers : std::vector<cv::Point2f>{};
     if (ordinary <= 0 && moving.empty()) return corners;
@@ -241,7 +250,7 @@ std::vector<cv::Point2f> CornerDetector::detect(const PaddedPicture& picture,
             false, candidates);
     }
     if (static_cast<int>(candidates.size()) > std::min(room, ordinary)) {
-        const BlockGrid blocks(size, spacing_px_, options_.max_corners);
+        const BlockGrid blocks(size, spacing_px_, most);
         std::vector<int> living_in_block(std::size_t(blocks.count()), 0);
         for (const cv::Point2f& corner : surroundings.living) ++living_in_block[std::size_t(blocks.blockOf(corner))];
         for (Candidate& candidate : candidates) candidate.block = blocks.blockOf(candidate.position());

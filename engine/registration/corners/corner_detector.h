@@ -19,6 +19,9 @@ struct CornerOptions {
     int tensor_window = 3;
     bool favour_movers = true;  ///< the cap does not thin out corners near moving ones
 
+    /// How many corners a picture may have: `max_corners` up to 1280×720, more by its area in a larger one, where as
+    /// many would leave small vehicles without any, but twice as many at the most.
+    int mostCorners(cv::Size image) const;
     void describe(ParameterVisitor& visitor);
 };
 
@@ -39,7 +42,7 @@ class CornerDetector {
     CornerDetector(const CornerOptions& options, const SceneScale& scale);
 
     /// New corners, in an order that does not depend on threads. Together with the living ones there are at most
-    /// `max_corners`. Places nothing in constant padding at the border of the picture.
+    /// CornerOptions::mostCorners(). Places nothing in constant padding at the border of the picture.
     std::vector<cv::Point2f> detect(const PaddedPicture& picture, const CornerSurroundings& surroundings) const;
 
     /// Distance between corners, px.

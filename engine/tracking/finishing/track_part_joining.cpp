@@ -27,6 +27,12 @@ constexpr double kCovered = 0.1;           ///< of the smaller part, where parts
 constexpr double kTravelledCovered = 4;    ///< … m over the ground that say enough then …
 constexpr double kCoveredOfLonger = 0.25;  ///< … share of the longer one's life, whose box grows throughout …
 constexpr double kLooseCovered = 0.5;      ///< … and m by which their distance scatters, and that of parts anywhere
+constexpr double kFastForBus = 6;          ///< m/s at which front and rear of a bus are told from two cars …
+constexpr double kNobodyFollows = 0.18;    ///< … by the time from the one's rear to the other's front, s
+constexpr double kBusCovered = 1;          ///< m by which their boxes may reach over each other
+constexpr double kBusLife = 0.75;          ///< of the longer one's life, in which both are followed
+constexpr double kShortestBus = 8.5;       ///< m
+constexpr double kLongestBus = 14;         ///< m
 constexpr double kWholeAlone = 1.25;       ///< a part that is longer by this factor while alone is the whole then
 
 /// What a whole box adds to one of its parts, in the part's own axes; m, since it grows as the vehicle comes nearer.
@@ -74,6 +80,8 @@ struct Together {
         for (const double value : across) off.push_back(std::abs(value));
         return medianOf(std::move(off));
     }
+    /// m/s.
+    double speed(const SceneScale& scale) const { return travelled / frames() * scale.frame_rate_hz; }
     double tolerance() const { return kPixel * medianOf(pixels); }
     /// Whether they are seen together for long, and on their way: standing things and bumper to bumper traffic say
     /// nothing.
@@ -106,6 +114,16 @@ Together togetherOf(const TrackPath& leader, const TrackPath& other, const Scene
     return together;
 }
 
+/// Whether two tracks, each as long as a car, are front and rear of a bus: they drive so fast that no driver would
+/// follow another so closely.
+bool isBus(const Together& together, const SceneScale& everywhere) {
+    const double speed = together.speed(everywhere);
+    const double gap = medianOf(together.gaps);
+    const double length = medianOf(together.lengths);
+    return speed >= kFastForBus && gap >= -kBusCovered && gap <= kNobodyFollows * speed && length >= kShortestBus &&
+           length <= kLongestBus;
+}
+
 /// How two tracks make one vehicle: they drive right behind or on each other as if fixed. Nothing if they do not.
 std::optional<Whole> wholeOf(const TrackPath& leader, const TrackPath& other, const SceneScale& everywhere,
                              PartsOfVehicle wanted) {
@@ -117,11 +135,12 @@ std::optional<Whole> wholeOf(const TrackPath& leader, const TrackPath& other, co
     if (together.frames() < (overlap ? kCoveredOfLonger * longer : kPartOfShorter * shorter)) return {};
     if (overlap && medianOf(together.covered) < kCovered) return {};
     const double tolerance = together.tolerance();
-    if (medianOf(together.gaps) > kPartGap + tolerance) return {};
+    const bool bus = !overlap && together.frames() >= kBusLife * longer && isBus(together, everywhere);
+    if (!bus && medianOf(together.gaps) > kPartGap + tolerance) return {};
     if (!overlap && together.aside() > kAside + tolerance) return {};
     if (spreadOf(together.along) > (overlap ? kLooseCovered : kLoose) + tolerance / 2) return {};
     const double metre = overlap && !everywhere.gsd_known ? 1 / kEstimatedShare : 1;
-    if (medianOf(together.parts) > kPart * metre) return {};
+    if (!bus && medianOf(together.parts) > kPart * metre) return {};
     if (medianOf(together.lengths) > kLongestOfParts * metre) return {};
     if (medianOf(together.widths) > kWidest * metre + 2 * tolerance) return {};
     return together.whole;

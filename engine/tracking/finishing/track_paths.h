@@ -48,7 +48,7 @@ std::vector<TrackPath> joinFragments(std::vector<TrackPath> paths, const GroundM
 
 /// How tracks lie that are parts of one vehicle.
 enum class PartsOfVehicle {
-    in_line,     ///< one right behind the other, faster and longer than bumper to bumper traffic would
+    in_line,     ///< one right behind the other, closer and longer than drivers follow each other
     overlapping  ///< on each other, as the cab, the load and the wheels of a lorry that is seen from the side
 };
 

@@ -107,7 +107,8 @@ TEST(JoinParts, LieCloseBehindEachOther) {
 
 TEST(JoinParts, OneOfThemIsShorterThanAnyCar) {
     Lorry lorry;
-    for (const double length : {14.3, 14.5}) {  // 3.6 m are 14.4 px
+    lorry.front.speed = lorry.rear.speed = 0.95;  // so slow that it might be two cars
+    for (const double length : {14.3, 14.5}) {    // 3.6 m are 14.4 px
         lorry.rear.size.width = length;
         lorry.front.size.width = 40;
         lorry.rear.offset = {-(40 + length) / 2, 0};
@@ -115,6 +116,41 @@ TEST(JoinParts, OneOfThemIsShorterThanAnyCar) {
         std::swap(lorry.front.size, lorry.rear.size);
         expectParts(length < 14.4, lorry.front, lorry.rear);
         std::swap(lorry.front.size, lorry.rear.size);
+    }
+}
+
+/// Front and rear of a bus, 5 m each, of 11.5 m, at 9.4 m/s.
+struct Bus {
+    Lane front, rear;
+    explicit Bus(double gap = 6) { rear.offset = {-20 - gap, 0}; }
+};
+
+TEST(JoinParts, OfABusLieCloserBehindEachOtherThanDriversDare) {
+    expectParts(true, Bus().front, Bus().rear);
+    for (const double gap : {6.7, 6.8, -3.9, -4.1}) {  // .18 s are 6.75 px, a metre 4
+        const Bus bus(gap);
+        expectParts(gap > -4 && gap < 6.75, bus.front, bus.rear);
+    }
+    for (const double speed : {0.97, 0.95}) {  // 6 m/s are .96
+        Bus bus(4);
+        bus.front.speed = bus.rear.speed = speed;
+        bus.front.count = bus.rear.count = 60;
+        expectParts(speed > 0.96, bus.front, bus.rear);
+    }
+}
+
+TEST(JoinParts, OfABusAreAsLongAsOneAndFollowedTogether) {
+    for (const double length : {15.0, 14.0, 26.0, 25.0}) {  // with a gap of 5 px 8.5 m are 34, 14 m are 56
+        Bus bus(5);
+        bus.front.size.width = bus.rear.size.width = length;
+        bus.rear.offset = {-length - 5, 0};
+        expectParts(length == 15 || length == 25, bus.front, bus.rear);
+    }
+    for (const int together : {31, 29}) {  // of 40, three quarters are 30
+        Bus bus;
+        bus.rear.first = 40 - together;
+        bus.rear.count = together;
+        expectParts(together == 31, bus.front, bus.rear);
     }
 }
 

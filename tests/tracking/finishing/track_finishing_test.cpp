@@ -340,8 +340,8 @@ TEST(FinishTracks, carsThatFollowEachOtherStayTwo) {
     MovingScene close;  // as close, but the distance changes by half a metre and more
     close.objects = {{{250, 180}, {1.5, 0}, 14, 9, 0}, {{233, 180}, {1.62, 0}, 13, 9, 0}};
     EXPECT_EQ(finishTracks(lorryInParts(close, 60), summariesOf(close, 60), {}, close.scale).size(), 120U);
-    MovingScene cars;  // fixed, but both as long as cars
-    cars.objects = {{{250, 180}, {1.5, 0}, 18, 9, 0}, {{232, 180}, {1.5, 0}, 18, 9, 0}};
+    MovingScene cars;  // fixed, but both as long as cars, and as slow as in dense traffic
+    cars.objects = {{{250, 180}, {0.9, 0}, 18, 9, 0}, {{232, 180}, {0.9, 0}, 18, 9, 0}};
     EXPECT_EQ(finishTracks(lorryInParts(cars, 60), summariesOf(cars, 60), {}, cars.scale).size(), 120U);
     MovingScene slow;  // bumper to bumper
     slow.objects = {{{250, 180}, {0.3, 0}, 14, 9, 0}, {{236, 180}, {0.3, 0}, 13, 9, 0}};
