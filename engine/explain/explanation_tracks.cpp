@@ -79,8 +79,8 @@ std::string tentativeText(const TracedTentative& tentative) {
                        countText(static_cast<std::size_t>(tentative.frames), "frame", "frames") + ", " +
                        std::to_string(tentative.needed) + " within " + std::to_string(tentative.window) + " are needed";
     if (tentative.whole_needed > 0)
-        text += ", or " + std::to_string(tentative.whole_needed) + " detections that look like a whole vehicle (so far " +
-                std::to_string(tentative.whole) + ")";
+        text += ", or " + std::to_string(tentative.whole_needed) +
+                " detections that look like a whole vehicle (so far " + std::to_string(tentative.whole) + ")";
     return text;
 }
 

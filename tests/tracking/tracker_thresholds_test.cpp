@@ -254,7 +254,8 @@ TEST(TrackerThresholds, WhereTheVideoIsSlowFewerHitsConfirmATrack) {
 
 TEST(TrackerThresholds, WhereTheVideoIsSlowTwoWholeVehiclesConfirmATrack) {
     // Which of its detections a classifier takes for a whole vehicle, one letter a frame.
-    const auto framesUntilConfirmed = [](const std::string& looks, double frame_rate_hz, const TrackerOptions& options) {
+    const auto framesUntilConfirmed = [](const std::string& looks, double frame_rate_hz,
+                                         const TrackerOptions& options) {
         test::MovingScene scene;
         scene.scale.frame_rate_hz = frame_rate_hz;
         scene.objects = {{{100, 240}, {6, 0}, 40, 14, 0}};
