@@ -119,8 +119,7 @@ void describeLife(TrackerOptions& o, const ParameterDeclarer& declare) {
     declare.flag("tracking.follow_rate", o.follow_rate,
                  {"",
                   "Below 8 frames per second confirm_hits shrinks with the rate, to 4 at the least, and confirm_whole "
-                  "holds: what "
-                  "crosses the picture is not there for longer.",
+                  "holds: what crosses the picture is not there for longer.",
                   ""});
     declare.integer("tracking.confirm_whole", o.confirm_whole, 0, 64,
                     {"frames",

@@ -14,7 +14,7 @@ constexpr int kFineReach = 2;           ///< px around the best of every other s
 constexpr std::size_t kFewPixels = 48;  ///< that every other shift is tried with
 constexpr std::size_t kMostPixels = 65'000;
 constexpr int kGiveCells = 2;  ///< shifts that lie so many steps of the coarse search apart may be one way
-constexpr int kWaysTried = 4;  ///< of the coarse search
+constexpr int kWaysTried = 4;  ///< the best of the coarse search
 
 /// Where the parabola through three equidistant values has its top, −½ … ½ around the middle one.
 double topOf(double before, double middle, double after) {
@@ -155,7 +155,8 @@ std::optional<AreaWay> matchWay(const std::vector<cv::Point>& pixels, const cv::
     const int cells = reach / 2;
     const std::size_t step = coarseStep(pixels);
     cv::Mat1f both = coarseCorrelations(Pattern(pixels, step, from, earlier), around, cells, -1, allowed);
-    cv::dilate(both, both, cv::Mat1b::ones(2 * kGiveCells + 1, 2 * kGiveCells + 1));
+    const cv::Size about(2 * kGiveCells + 1, 2 * kGiveCells + 1);
+    cv::dilate(both, both, cv::Mat1b::ones(about));
     both += coarseCorrelations(Pattern(pixels, step, from, later), around, cells, 1, allowed);
 
     std::optional<AreaWay> best;
@@ -164,7 +165,7 @@ std::optional<AreaWay> matchWay(const std::vector<cv::Point>& pixels, const cv::
         cv::Point cell;
         cv::minMaxLoc(both, nullptr, &sum, nullptr, &cell);
         if (!(sum > 0)) break;
-        const cv::Rect near(cell - cv::Point(2, 2), cv::Size(5, 5));
+        const cv::Rect near(cell - cv::Point(kGiveCells, kGiveCells), about);
         both(near & cv::Rect({}, both.size())) = -4;
         const cv::Point there = bestShift(on, around + 2 * (cell - cv::Point(cells, cells)), kFineReach, 1, allowed);
         const cv::Point shift = there - around;

@@ -208,11 +208,15 @@ void MovingAreaOptions::describe(ParameterVisitor& visitor) {
                   "it goes too far for them to be followed.",
                   ""});
     declare.real("motion.area_low_rate_correlation", area_low_rate_correlation, -1, 1,
-                 {"", "Lowest correlation there: a vehicle looks different by then.", ""});
+                 {"",
+                  "Lowest correlation below motion.area_low_rate, both ways: a vehicle looks different from picture to "
+                  "picture.",
+                  ""});
     declare.real("motion.area_low_rate_noise_factor", area_low_rate_noise_factor, 0.1, 100,
                  {"",
-                  "There areas are looked for at lower and lower differences, too, down to this many deviations, where "
-                  "none moves at higher ones: grey vehicles on grey roads. As large as motion.area_noise_factor: no.",
+                  "Below motion.area_low_rate areas are looked for at lower and lower differences, too, down to this "
+                  "many deviations, where none moves at higher ones: grey vehicles on grey roads. As large as "
+                  "motion.area_noise_factor: no.",
                   ""});
 }
 
@@ -264,8 +268,7 @@ MovingAreas::Difference MovingAreas::difference() const {
     return {difference & in_before & in_long_before, noise};
 }
 
-std::vector<DifferingArea> MovingAreas::areasFrom(const Difference& difference, double noise_factor) const {
-    const double threshold = std::max(noise_factor * difference.noise, options_.area_contrast);
+std::vector<DifferingArea> MovingAreas::areasFrom(const Difference& difference, double threshold) const {
     return areasOf(difference.gray > threshold, [&](cv::Point2d half) -> AreaLimits {
         const SceneScale here = scale_.at(2 * half);
         const double half_px_per_m = here.px(1) / 2;
@@ -274,11 +277,15 @@ std::vector<DifferingArea> MovingAreas::areasFrom(const Difference& difference, 
     });
 }
 
-std::vector<double> MovingAreas::noiseFactors() const {
-    std::vector<double> factors{options_.area_noise_factor};
-    while (isLowRate() && factors.back() * kLowerStep >= options_.area_low_rate_noise_factor)
-        factors.push_back(factors.back() * kLowerStep);
-    return factors;
+std::vector<double> MovingAreas::thresholds(double noise) const {
+    double factor = options_.area_noise_factor;
+    std::vector<double> descending{std::max(factor * noise, options_.area_contrast)};
+    while (isLowRate() && descending.back() > options_.area_contrast) {
+        factor *= kLowerStep;
+        if (factor < options_.area_low_rate_noise_factor) break;
+        descending.push_back(std::max(factor * noise, options_.area_contrast));
+    }
+    return descending;
 }
 
 std::optional<cv::Point2d> MovingAreas::shiftOf(const DifferingArea& area, double min_correlation,
@@ -369,8 +376,8 @@ std::vector<MotionVector> MovingAreas::infer(const FrameMotion& motion,
     const Difference difference = this->difference();
     const cv::Mat long_before = isLowRate() ? frames_.past(2 * gap_).gray : cv::Mat();
     cv::Mat1b moving = cv::Mat1b::zeros(difference.gray.size());
-    for (const double factor : noiseFactors()) {
-        std::vector<DifferingArea> areas = areasFrom(difference, factor);
+    for (const double threshold : thresholds(difference.noise)) {
+        std::vector<DifferingArea> areas = areasFrom(difference, threshold);
         std::erase_if(areas, [&](const DifferingArea& area) {
             return std::any_of(area.pixels.begin(), area.pixels.end(), [&](cv::Point p) { return moving(p) != 0; });
         });

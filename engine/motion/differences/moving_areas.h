@@ -73,10 +73,10 @@ class MovingAreas {
         double noise = 0;  ///< grey values
     };
     Difference difference() const;
-    std::vector<DifferingArea> areasFrom(const Difference& difference, double noise_factor) const;
+    std::vector<DifferingArea> areasFrom(const Difference& difference, double threshold) const;
     bool isLowRate() const { return scale_.frame_rate_hz < options_.area_low_rate_hz; }
-    /// From the highest down to the lowest that areas are looked for from.
-    std::vector<double> noiseFactors() const;
+    /// Grey values from which on pixels differ; several, the highest first, at a low rate.
+    std::vector<double> thresholds(double noise) const;
     /// Lowest correlation that an area at a place of a frame needs; nothing where corners suffice.
     std::optional<double> correlationNeeded(const FrameMotion& motion, cv::Point2d place) const;
     /// px from the picture before to the newest, over the ground; nothing where the area is not one thing that moves.
