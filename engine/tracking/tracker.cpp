@@ -357,7 +357,7 @@ void Tracker::startTracks(const std::vector<const Detection*>& detections, const
         track.whole_hits = 1;
         track.whole_boxes = detection.complete;
         track.filter.pointForward(model_.slowSpeed());
-        if (options_.confirm_hits <= 1) track.status = TrackStatus::confirmed;
+        if (manager_.confirmationOf(track).reached()) track.status = TrackStatus::confirmed;
         born.push_back(std::move(track));
     }
     tracks_.reserve(known + born.size());

@@ -266,6 +266,10 @@ TrackerOptions TrackerOptions::atRate(double frame_rate_hz) const {
     return here;
 }
 
+int TrackerOptions::fewestDetections() const {
+    return std::max(1, confirm_whole > 0 ? std::min(confirm_hits, confirm_whole) : confirm_hits);
+}
+
 TrackerOptions TrackerOptions::thesis() {
     TrackerOptions options;
     options.min_overlap = 0.5;

@@ -102,6 +102,8 @@ struct TrackerOptions {
     /// What holds for a video: below 8⅓ frames per second `confirm_hits` shrinks with the rate, to 4 at the least,
     /// where `follow_rate` says so; elsewhere `confirm_whole` is 0.
     TrackerOptions atRate(double frame_rate_hz) const;
+    /// Detections without which no track can become reliable.
+    int fewestDetections() const;
 };
 
 }  // namespace eyrie

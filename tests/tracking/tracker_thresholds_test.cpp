@@ -274,6 +274,8 @@ TEST(TrackerThresholds, WhereTheVideoIsSlowTwoWholeVehiclesConfirmATrack) {
     EXPECT_EQ(framesUntilConfirmed("w--", 2, {}), 4) << "one is not enough";
     EXPECT_EQ(framesUntilConfirmed("wwww", 10, {}), 5) << "where there are pictures enough they are asked for";
     EXPECT_EQ(framesUntilConfirmed("www", 2, with("tracking.confirm_whole", "3")), 3);
+    EXPECT_EQ(framesUntilConfirmed("w", 2, with("tracking.confirm_whole", "1")), 1);
+    EXPECT_EQ(framesUntilConfirmed("-w", 2, with("tracking.confirm_whole", "1")), 2);
     EXPECT_EQ(framesUntilConfirmed("www", 2, with("tracking.confirm_whole", "0")), 4);
     EXPECT_EQ(framesUntilConfirmed("www", 2, with("tracking.follow_rate", "false")), 5);
 }

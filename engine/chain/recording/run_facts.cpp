@@ -22,9 +22,7 @@ NothingFollowed firstGap(const RunCounts& counts, int frames_needed) {
 /// In the first frame nothing can have moved yet; a track is detected in later ones, however they follow.
 int framesNeeded(const RunStore& store, const RunRecord& run) {
     const TrackerOptions tracking = storedOptions(store.parameters(run.id)).tracking;
-    const TrackerOptions here = tracking.atRate(run.scale.frame_rate_hz);
-    const int hits = here.confirm_whole > 0 ? std::min(here.confirm_hits, here.confirm_whole) : here.confirm_hits;
-    return 1 + std::max(1, hits);
+    return 1 + tracking.atRate(run.scale.frame_rate_hz).fewestDetections();
 }
 
 }  // namespace

@@ -84,9 +84,13 @@ cv::Point bestShift(const Pattern& pattern, cv::Point around, int reach, int ste
     return best;
 }
 
-/// Shifts that keep an area inside a picture, with a pixel around it for the fraction.
-cv::Rect shiftsInside(const cv::Rect& area, cv::Size picture) {
-    return {cv::Point(1, 1) - area.tl(), picture - area.size() - cv::Size(1, 1)};
+/// Shifts that keep an area inside a picture, with a pixel around it for the fraction. Nothing where `around` is none
+/// of them, or the area is empty or too large to be looked for.
+std::optional<cv::Rect> shiftsInside(const std::vector<cv::Point>& pixels, cv::Size picture, cv::Point around) {
+    if (pixels.empty() || pixels.size() > kMostPixels) return std::nullopt;
+    const cv::Rect bounds = cv::boundingRect(pixels);
+    const cv::Rect allowed(cv::Point(1, 1) - bounds.tl(), picture - bounds.size() - cv::Size(1, 1));
+    return allowed.contains(around) ? std::optional(allowed) : std::nullopt;
 }
 
 bool isPlain(const Pattern& pattern) {
@@ -125,39 +129,36 @@ cv::Mat1f coarseCorrelations(const Pattern& pattern, cv::Point around, int cells
 
 std::optional<AreaMatch> matchArea(const std::vector<cv::Point>& pixels, const cv::Mat& from, const cv::Mat& to,
                                    cv::Point around, int reach) {
-    if (pixels.empty() || pixels.size() > kMostPixels) return std::nullopt;
-    const cv::Rect bounds = cv::boundingRect(pixels);
-    const cv::Rect allowed = shiftsInside(bounds, to.size());
-    if (!allowed.contains(around)) return std::nullopt;
+    const auto allowed = shiftsInside(pixels, to.size(), around);
+    if (!allowed) return std::nullopt;
     const Pattern pattern(pixels, 1, from, to);
     if (isPlain(pattern)) return std::nullopt;
     cv::Point best = around;
     if (reach > 2 * kFineReach) {
         // Every other shift with some of the pixels shows where to look closely.
         const Pattern some(pixels, coarseStep(pixels), from, to);
-        best = bestShift(some, around, reach, 2, allowed);
-        best = bestShift(pattern, best, kFineReach, 1, allowed);
+        best = bestShift(some, around, reach, 2, *allowed);
+        best = bestShift(pattern, best, kFineReach, 1, *allowed);
     } else {
-        best = bestShift(pattern, around, reach, 1, allowed);
+        best = bestShift(pattern, around, reach, 1, *allowed);
     }
     return matchAt(pattern, best);
 }
 
 std::optional<AreaWay> matchWay(const std::vector<cv::Point>& pixels, const cv::Mat& from, const cv::Mat& later,
                                 const cv::Mat& earlier, cv::Point around, int reach, double give) {
-    if (pixels.empty() || pixels.size() > kMostPixels) return std::nullopt;
-    const cv::Rect allowed = shiftsInside(cv::boundingRect(pixels), later.size());
-    if (!allowed.contains(around)) return std::nullopt;
+    const auto allowed = shiftsInside(pixels, later.size(), around);
+    if (!allowed) return std::nullopt;
     const Pattern on(pixels, 1, from, later);
     if (isPlain(on)) return std::nullopt;
     const Pattern came(pixels, 1, from, earlier);
 
     const int cells = reach / 2;
     const std::size_t step = coarseStep(pixels);
-    cv::Mat1f both = coarseCorrelations(Pattern(pixels, step, from, earlier), around, cells, -1, allowed);
+    cv::Mat1f both = coarseCorrelations(Pattern(pixels, step, from, earlier), around, cells, -1, *allowed);
     const cv::Size about(2 * kGiveCells + 1, 2 * kGiveCells + 1);
     cv::dilate(both, both, cv::Mat1b::ones(about));
-    both += coarseCorrelations(Pattern(pixels, step, from, later), around, cells, 1, allowed);
+    both += coarseCorrelations(Pattern(pixels, step, from, later), around, cells, 1, *allowed);
 
     std::optional<AreaWay> best;
     for (int tried = 0; tried < kWaysTried; ++tried) {
@@ -167,11 +168,11 @@ std::optional<AreaWay> matchWay(const std::vector<cv::Point>& pixels, const cv::
         if (!(sum > 0)) break;
         const cv::Rect near(cell - cv::Point(kGiveCells, kGiveCells), about);
         both(near & cv::Rect({}, both.size())) = -4;
-        const cv::Point there = bestShift(on, around + 2 * (cell - cv::Point(cells, cells)), kFineReach, 1, allowed);
+        const cv::Point there = bestShift(on, around + 2 * (cell - cv::Point(cells, cells)), kFineReach, 1, *allowed);
         const cv::Point shift = there - around;
         const int differs = std::max(kFineReach, cvRound(give * std::hypot(shift.x, shift.y)));
-        if (!allowed.contains(around - shift)) continue;
-        const cv::Point whence = bestShift(came, around - shift, differs, 1, allowed);
+        if (!allowed->contains(around - shift)) continue;
+        const cv::Point whence = bestShift(came, around - shift, differs, 1, *allowed);
         const AreaWay way{matchAt(on, there), matchAt(came, whence)};
         if (!best || way.correlation() > best->correlation()) best = way;
     }

@@ -114,8 +114,8 @@ Together togetherOf(const TrackPath& leader, const TrackPath& other, const Scene
     return together;
 }
 
-/// Whether two tracks, each as long as a car, are front and rear of a bus: they drive so fast that no driver would
-/// follow another so closely.
+/// Whether two tracks are front and rear of a bus: they drive so fast that no driver would follow another so closely.
+/// Each may be as long as a car.
 bool isBus(const Together& together, const SceneScale& everywhere) {
     const double speed = together.speed(everywhere);
     const double gap = medianOf(together.gaps);
