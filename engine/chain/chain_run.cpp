@@ -15,6 +15,7 @@
 #include "chain/progress_meter.h"
 #include "chain/recording/chain_state.h"
 #include "core/error.h"
+#include "core/measure_text.h"
 #include "core/values/last_frame.h"
 #include "core/values/stopwatch.h"
 #include "io/clock_jumps.h"
@@ -204,6 +205,30 @@ StageTimes medianTimes(const std::vector<StageTimes>& frames) {
     return median;
 }
 
+/// Where so many pictures repeat the one before that the video was made of another one of fewer pictures a second.
+class Repeats {
+ public:
+    void see(RegistrationState state) {
+        ++frames_;
+        repeats_ += state == RegistrationState::frozen;
+    }
+    /// What it means and what to do about it, for people; empty where few repeat.
+    std::string text(double frame_rate_hz) const {
+        constexpr int kFewestFrames = 20;
+        constexpr double kFewestShare = 0.3;
+        if (frames_ < kFewestFrames || repeats_ < kFewestShare * frames_) return {};
+        const double differing = std::max(1, frames_ - repeats_);
+        return std::to_string(repeats_) + " of " + std::to_string(frames_) +
+               " pictures repeat the one before, so that speeds are told " + numberText(frames_ / differing) +
+               " times as high as they are; for true ones make the video anew without repeats, with " +
+               numberText(frame_rate_hz * differing / frames_) + " pictures a second";
+    }
+
+ private:
+    int frames_ = 0;
+    int repeats_ = 0;
+};
+
 std::string grownText(FrameIndex last) {
     return "the video has grown since it was opened; the run ends with frame " + std::to_string(last) +
            ", which was the last one then; open it again and make a run over the rest";
@@ -240,6 +265,7 @@ RunSummary ChainRun::run(FrameSource& source, FrameRange range, ChainObserver& o
         StateClock clock(observer.stateKeeping());
         ProgressMeter meter(summary.frames_total, summary.frames_done);
         ClockJumps jumps(source.info().frame_rate_hz);
+        Repeats repeats;
         Producer first_half(source, {progress->last_done + 1, range.last}, with_colour, *progress, clock, queue);
         // Frame t+1 is registered on this thread while frame t is segmented and tracked below.
         std::jthread producer([&] { first_half.work(stop); });
@@ -266,6 +292,7 @@ RunSummary ChainRun::run(FrameSource& source, FrameRange range, ChainObserver& o
             observer.onFrame(result, item->frame);
             progress->last_done = item->frame.index;
             jumps.see(item->frame.index, item->frame.time_us);
+            repeats.see(result->motion.registration.state);
             times.push_back(result->stage_ms);
             const RunProgress news = meter.frameDone();
             summary.frames_done = news.frames_done;
@@ -275,10 +302,12 @@ RunSummary ChainRun::run(FrameSource& source, FrameRange range, ChainObserver& o
         summary.outcome = summary.frames_done == summary.frames_total ? RunOutcome::finished : RunOutcome::stopped;
         if (summary.outcome == RunOutcome::finished) {
             const bool live = count > kLastFrame;  // its gaps are told otherwise
-            if (!live) summary.message = jumps.text();
-            if (range.last == count - 1 && source.hasGrown()) {
-                summary.message += (summary.message.empty() ? "" : ". Also, ") + grownText(range.last);
-            }
+            const auto tell = [&](const std::string& text) {
+                if (!text.empty()) summary.message += (summary.message.empty() ? "" : ". Also, ") + text;
+            };
+            if (!live) tell(jumps.text());
+            if (!live) tell(repeats.text(source.info().frame_rate_hz));
+            if (range.last == count - 1 && source.hasGrown()) tell(grownText(range.last));
         }
         if (summary.outcome == RunOutcome::stopped && summary.frames_done > 0 && observer.stateKeeping()) {
             // The first half is some frames ahead: these wait until the run goes on.

@@ -32,16 +32,26 @@ std::vector<cv::Point2f> positionsOf(const CornerSet& set) {
     return positions;
 }
 
+/// Of what is drawn into the picture no ground can be told.
+void removeWhere(CornerSet& set, const PictureMask& mask) {
+    if (mask.empty()) return;
+    set.removeIf([&](const TrackedCorner& corner) { return mask.marks(corner.position); });
+}
+
 }  // namespace
 
 Registrar::Registrar(const RegistrationOptions& options, const SceneScale& scale)
-    : options_(options), detector_(options.corners, scale), tracker_(options.tracking, scale) {}
+    : options_(options),
+      detector_(options.corners, scale),
+      tracker_(options.tracking, scale),
+      graphics_(options.graphics) {}
 
 void Registrar::reset() {
     anchor_.reset();
     older_.reset();
     estimator_.reset();
     repetition_.reset();
+    graphics_.reset();
     motion_ = cv::Matx33d::eye();
     repeated_ = 0;
     usual_corners_ = 0;
@@ -98,6 +108,7 @@ RegisteredFrame Registrar::next(const Frame& frame, StageTimes* times) {
         }
         repeated_ = 0;
     }
+    result.graphics = graphics_.mask();
     last_frame_ = frame.index;
     return result;
 }
@@ -126,8 +137,7 @@ RegisteredFrame Registrar::repeatedFrame(const Frame& frame) {
     result.registration.state = RegistrationState::frozen;
     result.registration.current_from_previous.from_frame = last_frame_;
     result.registration.current_from_previous.to_frame = frame.index;
-    for (TrackedCorner& corner : anchor_->corners.corners) {
-        ++corner.age;
+    for (const TrackedCorner& corner : anchor_->corners.corners) {
         if (!corner.sticks)
             result.corners.push_back({corner.id, corner.position, corner.position, corner.age, corner.on_background});
     }
@@ -162,7 +172,7 @@ std::optional<Registrar::Match> Registrar::registerOnto(const Anchor& anchor, Re
     cv::Matx33d start;
     {
         const Stopwatch timer(times, Stage::tracking_corners);
-        const auto coarse = CoarseRegistration(*estimator_, options_.feature_search)
+        const auto coarse = CoarseRegistration(*estimator_, options_.feature_search, graphics_.mask())
                                 .find(anchor.corners, anchor.pyramid, current_, predictionsFor(anchor), noise);
         if (!coarse) {
             failure = {.fault = RegistrationFault::no_match};
@@ -229,6 +239,8 @@ RegisteredFrame Registrar::registeredFrame(const Frame& frame, Anchor anchor, co
         const Stopwatch timer(times, Stage::tracking_corners);
         tracker_.advance(anchor.corners, match.positions, match.fit, current_.smooth(), anchor.frames_ago + 1,
                          std::max(1.0, 0.4 * detector_.spacing()));
+        graphics_.add(current_, anchor.corners, homography.matrix);
+        removeWhere(anchor.corners, graphics_.mask());
     }
     if (anchor.frames_ago == 0 && repeated_ == 0) motion_ = match.fit.matrix;
     std::swap(anchor.pyramid, current_);
@@ -255,6 +267,7 @@ RegisteredFrame Registrar::registeredFrame(const Frame& frame, Anchor anchor, co
 RegisteredFrame Registrar::failedFrame(const Frame& frame, RegistrationFailure failure, StageTimes& times) {
     Anchor fresh{current_, CornerSet(tracker_.window()), current_noise_, cv::Matx33d::eye(), 0, frame.index};
     replenish(fresh, times);
+    graphics_.loseWay();
     RegisteredFrame result;
     result.frame = frame.index;
     result.registration.state = RegistrationState::failed;
@@ -298,6 +311,7 @@ void Registrar::replenish(Anchor& anchor, StageTimes& times) {
     }
     surroundings.noise = anchor.noise;
     surroundings.margin = tracker_.margin();
+    surroundings.graphics = graphics_.mask();
     tracker_.add(anchor.corners, detector_.detect(anchor.pyramid.level(0), surroundings), anchor.pyramid.smooth(),
                  next_id_);
 }

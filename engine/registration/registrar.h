@@ -11,6 +11,7 @@
 #include "registration/corners/corner_detector.h"
 #include "registration/corners/corner_tracker.h"
 #include "registration/estimation/homography_estimator.h"
+#include "registration/pictures/burned_in_graphics.h"
 #include "registration/pictures/image_pyramid.h"
 #include "registration/pictures/picture_difference.h"
 #include "registration/registration_options.h"
@@ -73,6 +74,7 @@ class Registrar {
     CornerTracker tracker_;
     std::optional<HomographyEstimator> estimator_;  ///< made for the size of the first frame
     RepetitionDetector repetition_;
+    BurnedInGraphics graphics_;
 
     std::optional<Anchor> anchor_;  ///< the newest usable picture
     std::optional<Anchor> older_;   ///< the last good picture before frames that failed

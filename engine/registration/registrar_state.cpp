@@ -50,6 +50,24 @@ void CornerSet::transfer(Archive& archive) {
 }
 
 template <class Archive>
+void BurnedInGraphics::transfer(Archive& archive) {
+    archive(size_, level_, level_size_, way_, wanted_px_, looks_, along_x_, along_y_, energy_, weight_);
+    archive.require(level_ >= 0 && level_ < ImagePyramid::kMaxLevels, "a level that no picture has");
+    archive.require(level_size_.width == size_.width >> level_ && level_size_.height == size_.height >> level_,
+                    "a level of another picture");
+    for (const auto* sum : {&along_x_, &along_y_, &energy_, &weight_})
+        archive.require(sum->size() == pixels(), "sums of another picture");
+    std::vector<std::uint8_t> marked;
+    if (!mask_.empty()) marked.assign(mask_.cells.datastart, mask_.cells.dataend);
+    archive(marked);
+    archive.require(marked.empty() || marked.size() == pixels(), "graphics of another picture");
+    if constexpr (Archive::reading) {
+        mask_ = {};
+        if (!marked.empty()) mask_ = {cv::Mat(level_size_, CV_8UC1, marked.data()).clone(), 1 << level_};
+    }
+}
+
+template <class Archive>
 void Registrar::Anchor::transfer(Archive& archive) {
     if constexpr (Archive::reading) {
         pyramid.build(archive.picture(frame, {}));
@@ -73,6 +91,7 @@ void Registrar::transfer(Archive& archive) {
     };
     anchor(anchor_);
     anchor(older_);
+    graphics_.transfer(archive);
     archive(repetition_, motion_, repeated_, usual_corners_, last_frame_, next_id_);
     for (const auto* one : {&anchor_, &older_}) {
         archive.require(!*one || (*one)->corners.size() == 0 || (*one)->corners.corners.back().id < next_id_,

@@ -7,6 +7,7 @@ RegistrationOptions RegistrationOptions::thesis() {
     options.corners.favour_movers = false;
     options.corners.max_corners = 50'000;  // the text knows no limit: about 22,000 vectors an image (table 7.11)
     options.feature_search = false;
+    options.graphics.leave_out_graphics = false;
     options.recovery_frames = 0;  // homographies between subsequent images only
     return options;
 }
@@ -16,6 +17,7 @@ void RegistrationOptions::describe(ParameterVisitor& visitor) {
     corners.describe(visitor);
     tracking.describe(visitor);
     homography.describe(visitor);
+    graphics.describe(visitor);
     declare.integer(
         "registration.recovery_frames", recovery_frames, 0, 100,
         {"frames",

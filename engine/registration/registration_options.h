@@ -4,6 +4,7 @@
 #include "registration/corners/corner_detector.h"
 #include "registration/corners/corner_tracker.h"
 #include "registration/estimation/homography_estimator.h"
+#include "registration/pictures/burned_in_graphics.h"
 
 namespace eyrie {
 
@@ -12,6 +13,7 @@ struct RegistrationOptions {
     CornerOptions corners;
     TrackingOptions tracking;
     HomographyOptions homography;
+    GraphicsOptions graphics;
     int recovery_frames = 8;
     bool feature_search = true;  ///< where no prediction fits, features that look alike are tried
 

@@ -357,6 +357,7 @@ TEST(ChainOptions, theThesisPresetDiffersFromTheDefaultsWhereItMust) {
         {"finishing.from_rest", "0"},
         {"finishing.min_length", "0"},
         {"finishing.min_width", "0"},
+        {"registration.leave_out_graphics", "false"},
         {"finishing.max_aspect", "0"},
         {"finishing.max_sharing", "1"},
         {"finishing.drop_shadows", "false"},

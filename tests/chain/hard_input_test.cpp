@@ -57,6 +57,22 @@ TEST(HardInput, tinyAndHugeFrames) {
     EXPECT_EQ(result.stateAt(1), RegistrationState::registered);
 }
 
+TEST(HardInput, everyPictureTwiceIsFollowedAndSaysWhatItsSpeedsAre) {
+    const test::MovingScene scene;
+    test::MemorySource source(2 * scene.frames, scene.size, [&](int i) { return scene.draw(i / 2); });
+    Collector result;
+    const RunSummary summary = ChainRun(ChainOptions{}, scale()).run(source, {}, result, {});
+    EXPECT_EQ(summary.message,
+              "40 of 80 pictures repeat the one before, so that speeds are told 2 times as high as they are; for true "
+              "ones make the video anew without repeats, with 12.5 pictures a second");
+    EXPECT_EQ(result.confirmedAt(2 * scene.frames - 2), 2);
+    const RunSummary usual = [&] {
+        test::MemorySource once(scene);
+        return ChainRun(ChainOptions{}, scale()).run(once, {}, result, {});
+    }();
+    EXPECT_EQ(usual.message, "");
+}
+
 TEST(HardInput, blackFramesCoastAndRecover) {
     test::MovingScene scene;
     scene.frames = 60;

@@ -125,6 +125,37 @@ TEST(RunRecorder, lostPicturesAreToldBesideWhatElseThereIsToTell) {
     EXPECT_THAT(message, testing::ContainsRegex("[.] Also, [0-9]+ pictures could not be read again"));
 }
 
+/// A clock drawn into the picture is followed until it is known for what it is.
+TEST(RunRecorder, leavesOutFromTheFirstFrameOnWhatTurnsOutToBeDrawnIntoThePictures) {
+    const test::TemporaryFolder folder;
+    test::MovingScene scene;
+    scene.frames = 60;
+    scene.camera_per_frame = {2.6, 1.2};
+    scene.vehicles = {{{100, 120}, {4.6, 1.2}, {24, 11}}};
+    test::MemorySource source(scene.frames, scene.size, [&](int frame) {
+        cv::Mat picture = scene.draw(frame);
+        cv::putText(picture, "12:03:" + std::to_string(10 + frame * 7 % 90), {20, 30}, cv::FONT_HERSHEY_SIMPLEX, 0.7,
+                    cv::Scalar(255), 2, cv::LINE_AA);
+        return picture;
+    });
+    const auto leftOut = [&](const ChainOptions& options, const std::string& name) {
+        const SceneScale scale = sceneScale(source.info(), 0.2);
+        RunRecorder recorder(folder / name, plannedRun(source.info(), scale, {}, "default"), options);
+        const RunRecord run = recorder.finish(ChainRun(options, scale).run(source, {}, recorder, {}));
+        ProjectFile project = ProjectFile::open(folder / name);
+        int left_out = 0;
+        for (FrameIndex frame = 0; frame < scene.frames; ++frame) {
+            for (const DroppedState& dropped : RunStore(project).frameResult(run.id, frame)->dropped)
+                left_out += dropped.why == TrackDrop::on_graphics && dropped.box.centre.y < 40;
+        }
+        return left_out;
+    };
+    EXPECT_GT(leftOut({}, "known.eyrie"), 0);
+    ChainOptions options;
+    options.registration.graphics.leave_out_graphics = false;
+    EXPECT_EQ(leftOut(options, "unknown.eyrie"), 0);
+}
+
 TEST(RunRecorder, whoStopsARunDoesNotWaitForItsPictures) {
     const test::TemporaryFolder folder;
     CountedSource source(sixtyFrames());

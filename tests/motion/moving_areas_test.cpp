@@ -124,6 +124,21 @@ INSTANTIATE_TEST_SUITE_P(Directions, MovingAreasOfACar,
                          testing::Values(cv::Point2d(2, 0), cv::Point2d(-1.5, 1), cv::Point2d(0, -3),
                                          cv::Point2d(1.1, 0.4)));
 
+TEST(MovingAreas, AreNotFiguresDrawnIntoThePicture) {
+    const CarScene scene = sceneWith({2, 0});
+    PictureMask graphics{cv::Mat::zeros(scene.size.height / 2, scene.size.width / 2, CV_8UC1), 2};
+    const auto seen = [&] {
+        MovingAreas areas({}, kScale);
+        for (int index = 0; index < kFrames; ++index)
+            areas.add({index, index * 40000, scene.draw(index), {}}, panned(scene, index), graphics);
+        return areas.infer(starved(scene), [](cv::Point2d) { return kScale.pxPerFrame(1); });
+    };
+    EXPECT_THAT(seen(), Not(IsEmpty()));
+    const cv::Point2d centre = scene.carAt(kFrames - 1);
+    graphics.cells(cv::Rect(cv::Point(0, cvRound(centre.y / 2) - 12), cv::Size(graphics.cells.cols, 24))).setTo(255);
+    EXPECT_THAT(seen(), IsEmpty()) << "where it is and was";
+}
+
 TEST(MovingAreas, AreNotSeenWhereNothingMoves) {
     const CarScene scene = sceneWith({0, 0});
     EXPECT_THAT(inferred(scene, starved(scene)), IsEmpty());

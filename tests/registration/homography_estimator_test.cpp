@@ -210,6 +210,8 @@ TEST(HomographyEstimator, manyThatAgreeAreTrustedHoweverManyDoNot) {
     EXPECT_TRUE(trusted(1138, 1138.0 / 4842)) << "a turning camera at night";
     EXPECT_FALSE(trusted(100, 0.24)) << "so few may agree by chance";
     EXPECT_TRUE(trusted(100, 0.4));
+    EXPECT_TRUE(trusted(2055, 0.11)) << "relief in a large picture";
+    EXPECT_FALSE(trusted(999, 0.11));
     EXPECT_FALSE(trusted(1138, 0.05));
 }
 

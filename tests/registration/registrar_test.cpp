@@ -304,7 +304,7 @@ TEST(Registrar, fillsTheTimesItIsAskedFor) {
 TEST(RegistrationOptions, everyParameterIsNamedAfterTheRoomAndReadsBack) {
     RegistrationOptions options;
     const auto all = listParameters(describeOf(options));
-    EXPECT_EQ(all.size(), 19U);
+    EXPECT_EQ(all.size(), 20U);
     for (const Parameter& parameter : all) {
         EXPECT_EQ(parameter.name.rfind("registration.", 0), 0U) << parameter.name;
         EXPECT_FALSE(parameter.text.help.empty());

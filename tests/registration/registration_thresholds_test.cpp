@@ -195,8 +195,10 @@ TEST(RegistrationThresholds, MinInlierShareIsHowManyMustAgree) {
         const HomographyEstimator estimator(with("registration.min_inlier_share", value).homography, kSize);
         return estimator.trustworthy(fit);
     };
-    EXPECT_FALSE(trusted("0.12", 1000, 0.1));
-    EXPECT_TRUE(trusted("0.08", 1000, 0.1));
+    EXPECT_FALSE(trusted("0.12", 999, 0.1));
+    EXPECT_TRUE(trusted("0.08", 999, 0.1));
+    EXPECT_FALSE(trusted("0.12", 1000, 0.05)) << "of so many half of it";
+    EXPECT_TRUE(trusted("0.12", 1000, 0.07));
     EXPECT_FALSE(trusted("0.08", 299, 0.28)) << "of so few three tenths";
     EXPECT_TRUE(trusted("0.08", 299, 0.32));
     EXPECT_FALSE(trusted("0.35", 299, 0.32));

@@ -78,6 +78,7 @@ void RunRecorder::holdPictures() {
 void RunRecorder::onFrame(const std::shared_ptr<const FrameResult>& result, const Frame& frame) {
     store_ms_.push_back(writer_.write(*result));
     image_size_ = result->motion.image_size;
+    if (!result->motion.graphics.empty()) graphics_ = result->motion.graphics;
     pictures_.take(result->motion.frame, frame.gray);
     if (also_) also_->onFrame(result, frame);
 }
@@ -117,6 +118,7 @@ RunRecord RunRecorder::finish(const RunSummary& summary, FrameSource* source, st
     const VectorsAt vectors_at = [&](FrameIndex frame) { return store.motionVectors(writer_.runId(), frame); };
     const ClassifiedAt classified_at = [&](FrameIndex frame) { return store.classifiedBoxes(writer_.runId(), frame); };
     FoundInFrames found(vectors_at, classifiedVehicles(options_, classified_at));
+    found.graphics = graphics_;
     // Whoever stopped a run does not wait for its pictures once more.
     std::optional<PicturesOnceMore> pictures;
     if (state == RunState::finished && source != nullptr) {

@@ -51,6 +51,7 @@ class RunRecorder : public ChainObserver {
     ResultWriter writer_;
     ChainObserver* also_;
     cv::Size image_size_;
+    PictureMask graphics_;         ///< as far as it was known at last
     std::vector<float> store_ms_;  ///< of every frame
 };
 

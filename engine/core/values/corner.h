@@ -5,6 +5,7 @@
 
 #include "core/geometry/homography.h"
 #include "core/values/ids.h"
+#include "core/values/picture_mask.h"
 #include "core/values/registration_failure.h"
 
 namespace eyrie {
@@ -40,6 +41,7 @@ struct RegisteredFrame {
     FrameIndex frame = 0;
     Registration registration;
     std::vector<Corner> corners;
+    PictureMask graphics;  ///< where something known is drawn into the picture: text, reticles
 };
 
 }  // namespace eyrie

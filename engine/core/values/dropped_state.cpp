@@ -18,6 +18,8 @@ std::string textOf(const DroppedState& dropped) {
             return track + " drives beside " + other + " as if fixed to it, as its shadow or side would";
         case TrackDrop::hardly_detected:
             return track + " was guessed rather than detected";
+        case TrackDrop::on_graphics:
+            return track + " is text or a mark that is drawn into the picture";
         case TrackDrop::could_stand:
             return track +
                    " moves no faster than the parallax of a standing thing, and was never classified as a vehicle";
@@ -41,6 +43,8 @@ const char* parameterOf(TrackDrop why) {
             return "finishing.drop_shadows";
         case TrackDrop::hardly_detected:
             return "finishing.min_detected";
+        case TrackDrop::on_graphics:
+            return "registration.leave_out_graphics";
         case TrackDrop::could_stand:
             return "finishing.standing_height";
         case TrackDrop::unlikely:

@@ -15,6 +15,7 @@ enum class TrackDrop {
     shares_place,     ///< it lies on a track that was detected more often
     shadow,           ///< it drives beside a vehicle as if fixed to it
     hardly_detected,  ///< guessed rather than detected
+    on_graphics,      ///< it is text or a mark that was drawn into the picture
     could_stand,      ///< parallax alone may have moved it, and it does not look like a vehicle
     unlikely          ///< all in all its evidence hardly speaks for a vehicle that moves
 };

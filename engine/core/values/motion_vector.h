@@ -29,6 +29,7 @@ struct FrameMotion {
     std::vector<MotionVector> motion_vectors;     ///< sorted by ascending id
     std::vector<cv::Point2f> stationary_corners;  ///< px; background corners old enough to be judged
     int corner_count = 0;                         ///< all corners tracked into this frame
+    PictureMask graphics;                         ///< where something is drawn into the picture; not stored
     double background_speed_sigma = 0;            ///< robust deviation of the background's residual speed, px/frame
 };
 

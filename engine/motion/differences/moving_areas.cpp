@@ -227,8 +227,9 @@ int MovingAreaOptions::gapFrames(const SceneScale& scale) const {
 MovingAreas::MovingAreas(const MovingAreaOptions& options, const SceneScale& scale)
     : options_(options), scale_(scale), gap_(options.gapFrames(scale)), frames_(2 * gap_), next_id_(kFirstOfAreas) {}
 
-void MovingAreas::add(const Frame& frame, const Registration& registration) {
+void MovingAreas::add(const Frame& frame, const Registration& registration, const PictureMask& graphics) {
     if (!options_.areas) return;
+    graphics_ = graphics;
     if (frame.gray.empty())
         frames_.clear();
     else
@@ -237,6 +238,12 @@ void MovingAreas::add(const Frame& frame, const Registration& registration) {
 
 MovingAreas::Difference MovingAreas::difference() const {
     const cv::Mat now = halved(frames_.newest());
+    // Graphics are at the same place of each of the pictures; without what blur and interpolation take of them.
+    cv::Mat clear;
+    if (!graphics_.empty()) {
+        cv::resize(graphics_.cells == 0, clear, now.size(), 0, 0, cv::INTER_NEAREST);
+        cv::erode(clear, clear, cv::Mat1b::ones(2 * kPictureMargin + 1, 2 * kPictureMargin + 1));
+    }
     const auto earlier = [&](int back, cv::Mat& inside) {
         const cv::Mat half = halved(frames_.picture(back));
         const cv::Matx33d map = forHalves(frames_.pathTo(back).inverse().matrix);
@@ -253,6 +260,11 @@ MovingAreas::Difference MovingAreas::difference() const {
         }
         inside = cv::Mat::zeros(now.size(), CV_8UC1);
         cv::fillConvexPoly(inside, corners, cv::Scalar(255));
+        if (!clear.empty()) {
+            cv::Mat clear_there;
+            cv::warpPerspective(clear, clear_there, map, now.size(), cv::INTER_NEAREST);
+            inside &= clear_there;
+        }
         return warped;
     };
     cv::Mat in_before;
@@ -265,7 +277,9 @@ MovingAreas::Difference MovingAreas::difference() const {
     cv::absdiff(before, long_before, earlier_difference);
     cv::min(difference, earlier_difference, difference);
     const double noise = noiseOf(difference);
-    return {difference & in_before & in_long_before, noise};
+    difference &= in_before & in_long_before;
+    if (!clear.empty()) difference &= clear;
+    return {difference, noise};
 }
 
 std::vector<DifferingArea> MovingAreas::areasFrom(const Difference& difference, double threshold) const {

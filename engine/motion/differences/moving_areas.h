@@ -53,8 +53,9 @@ class MovingAreas {
  public:
     MovingAreas(const MovingAreaOptions& options, const SceneScale& scale);
 
-    /// Takes the next frame, failed and repeated ones, too; without a picture everything is forgotten.
-    void add(const Frame& frame, const Registration& registration);
+    /// Takes the next frame, failed and repeated ones, too; without a picture everything is forgotten. Nothing moves
+    /// where `graphics` are drawn into the pictures.
+    void add(const Frame& frame, const Registration& registration, const PictureMask& graphics = {});
     void clear() { frames_.clear(); }
     /// Vectors in the areas of the newest frame, with ids above those of all corners and silhouettes, and of age 0;
     /// none where corners suffice. `motion` is what is known of the frame already. `min_speed`: px/frame at a place.
@@ -95,6 +96,7 @@ class MovingAreas {
     SceneScale scale_;
     int gap_;
     RegisteredFrames frames_;
+    PictureMask graphics_;  ///< in the newest frame
     CornerId next_id_;
 };
 

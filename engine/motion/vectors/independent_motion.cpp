@@ -310,7 +310,7 @@ bool IndependentMotion::follow(const RegisteredFrame& registered) {
 
 void IndependentMotion::remember(const RegisteredFrame& registered, const Frame& frame) {
     silhouettes_.add(frame, registered.registration);
-    areas_.add(frame, registered.registration);
+    areas_.add(frame, registered.registration, registered.graphics);
     const RegistrationState state = registered.registration.state;
     const bool repeats = follow(registered) && state == RegistrationState::frozen;
     if (!repeats && state != RegistrationState::failed) takePicture(registered);
@@ -326,9 +326,10 @@ FrameMotion IndependentMotion::next(const RegisteredFrame& registered, const Fra
     motion.image_size = frame.gray.size();
     motion.registration = registered.registration;
     motion.corner_count = static_cast<int>(registered.corners.size());
+    motion.graphics = registered.graphics;
 
     silhouettes_.add(frame, registered.registration);
-    areas_.add(frame, registered.registration);
+    areas_.add(frame, registered.registration, registered.graphics);
     const RegistrationState state = registered.registration.state;
     const bool follows = follow(registered);
     if (state == RegistrationState::frozen && follows) {

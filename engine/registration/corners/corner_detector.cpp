@@ -228,15 +228,16 @@ std::vector<cv::Point2f> CornerDetector::detect(const PaddedPicture& picture,
     if (ordinary <= 0 && moving.empty()) return corners;
     const std::vector<StrengthPeak> peaks = allPeaks(picture, limits);
     const PaddingMask padding(picture);
+    const auto covered = [&](const StrengthPeak& peak) {
+        return padding.contains(peak.x, peak.y) || surroundings.graphics.marks(cv::Point2d(peak.x, peak.y));
+    };
     const CornerGrid movers(size, static_cast<float>(std::max(6.0, 2.5 * spacing_px_)), moving);
     std::vector<Candidate> candidates;
     if (!moving.empty()) {
         appendCandidates(
             peaks, size, surroundings.living, spacing_px_,
-            [&](const StrengthPeak& peak, cv::Point2f at) {
-                return movers.anyInOrAround(at) && !padding.contains(peak.x, peak.y);
-            },
-            true, candidates);
+            [&](const StrengthPeak& peak, cv::Point2f at) { return movers.anyInOrAround(at) && !covered(peak); }, true,
+            candidates);
     }
     if (ordinary > 0) {
         // Near the cap, corners are put where there are none rather than where texture is best.
@@ -244,9 +245,7 @@ std::vector<cv::Point2f> CornerDetector::detect(const PaddedPicture& picture,
         const double even = std::max(spacing_px_, 0.75 * std::sqrt(size.area() / cap));
         appendCandidates(
             peaks, size, surroundings.living, spacing_px_ + filled * (even - spacing_px_),
-            [&](const StrengthPeak& peak, cv::Point2f at) {
-                return !padding.contains(peak.x, peak.y) && !movers.anyInOrAround(at);
-            },
+            [&](const StrengthPeak& peak, cv::Point2f at) { return !covered(peak) && !movers.anyInOrAround(at); },
             false, candidates);
     }
     if (static_cast<int>(candidates.size()) > std::min(room, ordinary)) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/parameter.h"
+#include "core/values/picture_mask.h"
 #include "core/values/scene_scale.h"
 #include "registration/pictures/padded_picture.h"
 
@@ -32,6 +33,7 @@ struct CornerSurroundings {
                                       ///< corners does not thin out, so that small vehicles keep their vectors
     double noise = 1;                 ///< grey levels, see noiseLevel
     int margin = 5;                   ///< px that corners keep to the border of the picture
+    PictureMask graphics;             ///< no corner is wanted there
 };
 
 /// Förstner–Harris corners (Teutsch §4.2; Förstner and Gülch 1987): maxima of the Förstner strength det N / tr N of the

@@ -74,6 +74,15 @@ class CornerSet {
     }
     void giveBack(int slot) { free_slots_.push_back(slot); }
 
+    template <class Predicate>
+    void removeIf(Predicate unwanted) {
+        std::erase_if(corners, [&](const TrackedCorner& corner) {
+            const bool leaves = unwanted(corner);
+            if (leaves) giveBack(corner.slot);
+            return leaves;
+        });
+    }
+
     /// Corners and patches, written or read; see core/state_archive.h. The set must be made for the same window.
     template <class Archive>
     void transfer(Archive& archive);

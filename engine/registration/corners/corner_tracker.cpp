@@ -36,7 +36,7 @@ float squareOf(cv::Point2f d) {
 }
 
 /// Notes for how long a corner has stayed where it is in the picture. `map`: of the ground into the new picture.
-void noteStay(TrackedCorner& corner, cv::Point2f position, const cv::Matx33d& map, int frames) {
+void noteStay(TrackedCorner& corner, cv::Point2f position, const cv::Matx33d& map, int frames, bool may_stick) {
     if (corner.age == 0) corner.held = corner.ground = corner.position;
     if (squareOf(position - corner.held) > kHeldPx * kHeldPx) {
         corner.held = corner.ground = position;
@@ -47,8 +47,8 @@ void noteStay(TrackedCorner& corner, cv::Point2f position, const cv::Matx33d& ma
     if (corner.sticks) return;  // where its ground has gone meanwhile says no more
     corner.ground = PointJacobian(map, corner.ground).point;
     corner.held_frames += frames;
-    corner.sticks =
-        corner.held_frames >= kHeldFrames && squareOf(corner.ground - corner.held) > kGroundGonePx * kGroundGonePx;
+    corner.sticks = may_stick && corner.held_frames >= kHeldFrames &&
+                    squareOf(corner.ground - corner.held) > kGroundGonePx * kGroundGonePx;
 }
 
 /// The turn so far, followed by that of one more step.
@@ -337,7 +337,7 @@ void CornerTracker::advance(CornerSet& set, const std::vector<TrackedPosition>& 
             const cv::Point2f drift = map.vector(corner.drift);
             corner.drift = drift + share * (velocity - drift);
             corner.on_background = squareOf(shift) <= background;
-            if (options_.leave_out_stuck) noteStay(corner, now.position, fit.matrix, frames);
+            noteStay(corner, now.position, fit.matrix, frames, options_.leave_out_stuck);
             corner.position = now.position;
             corner.offset = now.offset;
             corner.residual = now.residual;

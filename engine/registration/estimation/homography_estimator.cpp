@@ -175,8 +175,7 @@ void HomographyOptions::describe(ParameterVisitor& visitor) {
     declare.real("registration.min_inlier_share", min_inlier_share, 0.05, 0.95,
                  {"",
                   "A smaller share of agreeing corners than this, and a frame counts as not registered; of less than "
-                  "300 agreeing "
-                  "corners at least 0.3.",
+                  "300 agreeing corners at least 0.3, of 1000 and more half of it.",
                   ""});
 }
 

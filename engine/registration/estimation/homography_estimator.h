@@ -60,10 +60,12 @@ class HomographyEstimator {
     /// Whether enough points agree.
     bool trustworthy(const HomographyFit& fit) const {
         // A thousand corners do not agree by chance, however many others there are; a few dozen may.
+        constexpr int kVerySure = 1000;
         constexpr int kSure = 300;
         constexpr double kShareOfFew = 0.3;
-        const double share =
-            fit.inliers >= kSure ? options_.min_inlier_share : std::max(options_.min_inlier_share, kShareOfFew);
+        double share = std::max(options_.min_inlier_share, kShareOfFew);
+        if (fit.inliers >= kSure) share = options_.min_inlier_share;
+        if (fit.inliers >= kVerySure) share = options_.min_inlier_share / 2;
         return fit.inliers >= options_.min_inliers && fit.inlier_share >= share;
     }
 

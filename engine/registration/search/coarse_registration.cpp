@@ -139,11 +139,11 @@ std::optional<HomographyFit> CoarseRegistration::find(const CornerSet& corners, 
     for (const cv::Matx33d& prediction : predictions) {
         if (attempt(from.levels() - 1, kWideWindow, prediction)) return best;
     }
-    if (const auto searched = searchThumbnails(from, to))
+    if (const auto searched = searchThumbnails(from, to, graphics_))
         attempt(std::max(2, from.levels() - 2), kWideWindow, *searched);
     if (!best && feature_search_) {
         // Over relief few corners agree to half a pixel; then what features agree on is the best start there is.
-        const auto searched = searchFeatures(from, to, estimator_);
+        const auto searched = searchFeatures(from, to, estimator_, graphics_);
         if (searched && !attempt(1, kWideWindow, searched->matrix) && !best) best = searched;
     }
     return best;

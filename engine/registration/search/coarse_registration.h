@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/values/picture_mask.h"
 #include "registration/corners/corner_set.h"
 #include "registration/estimation/homography_estimator.h"
 #include "registration/pictures/image_pyramid.h"
@@ -16,8 +17,10 @@ namespace eyrie {
 /// turns of several degrees and dropped frames.
 class CoarseRegistration {
  public:
-    explicit CoarseRegistration(const HomographyEstimator& estimator, bool feature_search = true)
-        : estimator_(estimator), feature_search_(feature_search) {}
+    /// `graphics`: where something is drawn into both pictures, which does not tell the camera's motion.
+    explicit CoarseRegistration(const HomographyEstimator& estimator, bool feature_search = true,
+                                const PictureMask& graphics = {})
+        : estimator_(estimator), feature_search_(feature_search), graphics_(graphics) {}
 
     /// `predictions` are tried in turn. Empty when the pictures do not fit together.
     std::optional<HomographyFit> find(const CornerSet& corners, const ImagePyramid& from, const ImagePyramid& to,
@@ -26,6 +29,7 @@ class CoarseRegistration {
  private:
     const HomographyEstimator& estimator_;
     bool feature_search_;
+    PictureMask graphics_;
 };
 
 }  // namespace eyrie

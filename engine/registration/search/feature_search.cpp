@@ -30,13 +30,16 @@ int levelFor(const ImagePyramid& pyramid) {
     return level;
 }
 
-Features featuresOf(const PaddedPicture& picture) {
+Features featuresOf(const ImagePyramid& pyramid, int level, const PictureMask& graphics) {
+    const PaddedPicture& picture = pyramid.level(level);
     // Only read; OpenCV knows no view of constant pixels.
     const cv::Mat gray(picture.height(), picture.width(), CV_8UC1, const_cast<std::uint8_t*>(picture.row(0)),
                        static_cast<std::size_t>(picture.stride()));
     const auto detector = cv::AKAZE::create(cv::AKAZE::DESCRIPTOR_MLDB, 0, 3, kThreshold, 3, 3);
     Features features;
     detector->detect(gray, features.points);
+    std::erase_if(features.points,
+                  [&](const cv::KeyPoint& point) { return graphics.marks(ImagePyramid::fromLevel(point.pt, level)); });
     cv::KeyPointsFilter::retainBest(features.points, kMostFeatures);
     detector->compute(gray, features.points, features.descriptors);
     return features;
@@ -61,12 +64,12 @@ std::vector<cv::DMatch> matched(const Features& from, const Features& to) {
 }  // namespace
 
 std::optional<HomographyFit> searchFeatures(const ImagePyramid& from, const ImagePyramid& to,
-                                            const HomographyEstimator& between_frames) {
+                                            const HomographyEstimator& between_frames, const PictureMask& graphics) {
     const int level = levelFor(from);
     const PaddedPicture& picture = from.level(level);
     if (std::min(picture.width(), picture.height()) < kShortestSide) return std::nullopt;
-    const Features before = featuresOf(from.level(level));
-    const Features now = featuresOf(to.level(level));
+    const Features before = featuresOf(from, level, graphics);
+    const Features now = featuresOf(to, level, graphics);
     if (before.points.size() < kFewestAgreeing || now.points.size() < kFewestAgreeing) return std::nullopt;
     Correspondences points;
     for (const cv::DMatch& match : matched(before, now)) {

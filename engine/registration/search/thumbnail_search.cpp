@@ -18,7 +18,7 @@ constexpr double kFarthestShift = 0.4;
 constexpr double kLeastCorrelation = 0.35;
 
 /// A small picture without its slow brightness changes, which would correlate with everything.
-cv::Mat thumbnailOf(const ImagePyramid& pyramid, int level) {
+cv::Mat thumbnailOf(const ImagePyramid& pyramid, int level, const PictureMask& graphics) {
     const PaddedPicture& picture = pyramid.level(level);
     cv::Mat values(picture.height(), picture.width(), CV_32F);
     for (int y = 0; y < picture.height(); ++y) {
@@ -26,7 +26,14 @@ cv::Mat thumbnailOf(const ImagePyramid& pyramid, int level) {
     }
     cv::Mat smooth;
     cv::boxFilter(values, smooth, CV_32F, {9, 9}, {-1, -1}, true, cv::BORDER_REFLECT_101);
-    return values - smooth;
+    values -= smooth;
+    if (graphics.empty()) return values;
+    for (int y = 0; y < values.rows; ++y) {
+        for (int x = 0; x < values.cols; ++x) {
+            if (graphics.marks(ImagePyramid::fromLevel(cv::Point(x, y), level))) values.at<float>(y, x) = 0;
+        }
+    }
+    return values;
 }
 
 int thumbnailLevel(const ImagePyramid& pyramid) {
@@ -91,10 +98,11 @@ Match bestShift(const cv::Mat& a, const cv::Mat& b) {
 
 }  // namespace
 
-std::optional<cv::Matx33d> searchThumbnails(const ImagePyramid& from, const ImagePyramid& to) {
+std::optional<cv::Matx33d> searchThumbnails(const ImagePyramid& from, const ImagePyramid& to,
+                                            const PictureMask& graphics) {
     const int level = thumbnailLevel(from);
-    const cv::Mat source = thumbnailOf(from, level);
-    const cv::Mat target = thumbnailOf(to, level);
+    const cv::Mat source = thumbnailOf(from, level, graphics);
+    const cv::Mat target = thumbnailOf(to, level, graphics);
     const cv::Point2d centre((source.cols - 1) / 2.0, (source.rows - 1) / 2.0);
     const auto turnOf = [&](int index) { return radiansFromDegrees((index - kTurns / 2) * kTurnStepDegrees); };
     std::array<Match, kTurns> matches;

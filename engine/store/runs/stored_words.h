@@ -56,12 +56,13 @@ inline constexpr std::array<Word<TrackStatus>, 5> kTrackStatuses{{{TrackStatus::
                                                                   {TrackStatus::tentative, "tentative"},
                                                                   {TrackStatus::confirmed, "confirmed"},
                                                                   {TrackStatus::coasting, "coasting"}}};
-inline constexpr std::array<Word<TrackDrop>, 8> kTrackDrops{{{TrackDrop::unconfirmed, "unconfirmed"},
+inline constexpr std::array<Word<TrackDrop>, 9> kTrackDrops{{{TrackDrop::unconfirmed, "unconfirmed"},
                                                              {TrackDrop::too_small, "too small"},
                                                              {TrackDrop::wider_than_long, "wider than long"},
                                                              {TrackDrop::shares_place, "shares place"},
                                                              {TrackDrop::shadow, "shadow"},
                                                              {TrackDrop::hardly_detected, "hardly detected"},
+                                                             {TrackDrop::on_graphics, "on graphics"},
                                                              {TrackDrop::could_stand, "could stand"},
                                                              {TrackDrop::unlikely, "unlikely"}}};
 inline constexpr std::array<Word<LightOutcome>, 10> kLightOutcomes{{{LightOutcome::shadows, "shadows"},

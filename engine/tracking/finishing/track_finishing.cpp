@@ -351,6 +351,7 @@ FinishedTracks finishRun(const StatesOfRun& states, const GroundMotion& ground, 
             trimPredictedEnd(path, ground, scale.at(middleOf(path)).pxPerFrame(options.stop_speed_m_s));
     }
     std::erase_if(paths, [](const TrackPath& path) { return path.states.empty(); });
+    dropGraphics(paths, found.graphics, drops);
     paths = joinFragments(std::move(paths), ground, options, scale);
     const bool join_parts = options.join_parts && hasMetricLimits(scale);
     if (join_parts) joinParts(paths, scale, PartsOfVehicle::in_line);

@@ -19,6 +19,7 @@
 #include "core/values/dropped_state.h"
 #include "core/values/ids.h"
 #include "core/values/motion_vector.h"
+#include "core/values/picture_mask.h"
 #include "core/values/scene_scale.h"
 #include "core/values/track_state.h"
 
@@ -189,6 +190,7 @@ struct FoundInFrames {
         : vectors_at(std::move(vectors)), classified_at(std::move(classified)) {}
     VectorsAt vectors_at;
     ClassifiedAt classified_at;  ///< only of runs in which a classifier takes part
+    PictureMask graphics;        ///< where something is drawn into the pictures
     GrayOfFrame gray_at;         ///< where the pictures can be read once more; asked for in ascending order
 };
 

@@ -98,6 +98,9 @@ void dropShadows(std::vector<TrackPath>& paths, const IsShadow& is_shadow, DropL
 /// The same of those that touch the vehicle they drive beside, whatever they look like.
 void dropShadows(std::vector<TrackPath>& paths, const SceneScale& scale, DropList& dropped);
 
+/// Drops tracks that are text or marks drawn into the pictures: of what was detected most lies on `graphics`.
+void dropGraphics(std::vector<TrackPath>& paths, const PictureMask& graphics, DropList& dropped);
+
 /// Drops tracks that were guessed rather than seen: detected in less than `min_share` of their frames, not counting
 /// predicted ones, and in less than 0.4 s altogether.
 void dropHardlyDetected(std::vector<TrackPath>& paths, double min_share, const SceneScale& scale, DropList& dropped);

@@ -19,6 +19,9 @@ constexpr double kSharedOfShorter = 0.3;  ///< … and this share of the shorter
 constexpr double kWidestVehicle = 3.2;    ///< m
 constexpr double kPlaceMargin = 1;        ///< px
 constexpr double kSureSeconds = 0.4;      ///< a track detected for so long altogether is not doubted
+constexpr int kPlacesAlong = 6;           ///< of a box that are looked at …
+constexpr int kPlacesAcross = 3;          ///< … which are graphics …
+constexpr double kMostlyCovered = 0.5;    ///< … where so many of all are covered
 constexpr double kSizeQuantile = 0.75;    ///< boxes miss parts more often than they exceed the vehicle
 
 /// `length`, `width`: limits in m.
@@ -113,6 +116,29 @@ void dropWiderThanLong(std::vector<TrackPath>& paths, double max_aspect, DropLis
         for (const auto& [frame, state] : path.states) aspects.push_back(state.box.width / state.box.length);
         if (medianOf(std::move(aspects)) <= max_aspect) return false;
         drop(path, TrackDrop::wider_than_long, dropped);
+        return true;
+    });
+}
+
+void dropGraphics(std::vector<TrackPath>& paths, const PictureMask& graphics, DropList& dropped) {
+    if (graphics.empty()) return;
+    std::erase_if(paths, [&](TrackPath& path) {
+        int looked_at = 0;
+        int covered = 0;
+        for (const auto& [frame, state] : path.states) {
+            if (state.origin != StateOrigin::detected) continue;
+            const OrientedBox box = state.box;
+            for (int i = 0; i < kPlacesAlong; ++i) {
+                for (int j = 0; j < kPlacesAcross; ++j) {
+                    const double along = ((i + 0.5) / kPlacesAlong - 0.5) * box.length;
+                    const double across = ((j + 0.5) / kPlacesAcross - 0.5) * box.width;
+                    covered += graphics.marks(box.toImage({along, across}));
+                    ++looked_at;
+                }
+            }
+        }
+        if (covered < kMostlyCovered * looked_at || covered == 0) return false;
+        drop(path, TrackDrop::on_graphics, dropped);
         return true;
     });
 }
