@@ -17,6 +17,7 @@ namespace {
 // A fit on which fewer agree is tried again with any perspective, and given up for one on which clearly more do.
 constexpr double kUnquestionedShare = 0.5;
 constexpr double kClearlyMore = 1.2;
+constexpr double kNearPx = 1;       ///< off the coarse registration, for a corner that surely agrees with it
 constexpr double kFarthestPx = 10;  ///< off the coarse registration, for a corner that was looked for around it
 
 cv::Matx33d powerOf(const cv::Matx33d& m, int exponent) {
@@ -197,6 +198,8 @@ std::optional<Registrar::Match> Registrar::registerOnto(const Anchor& anchor, Re
         const auto consider = [&](const std::optional<HomographyFit>& other) {
             if (inliersOf(other) > kClearlyMore * inliersOf(fit)) fit = other;
         };
+        // Graphics that are drawn into the picture are so sharp that they outweigh a dull ground.
+        consider(estimator_->refine(points, start, 1, kNearPx));
         consider(free.refine(points, start, 1, kFarthestPx));
         if (!fit || !estimator_->trustworthy(*fit)) {
             const auto sampled = free.search(points, MotionModel::homography, options_.homography.inlier_distance);

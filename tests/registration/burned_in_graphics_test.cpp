@@ -204,6 +204,24 @@ TEST(BurnedInGraphics, AreKnownAsWellByWhoeverIsTakenUpAgain) {
     EXPECT_FALSE(whole.next(test::frameOf(40, pictures[39])).graphics.empty()) << "the scene has some";
 }
 
+/// Thermal pictures: the ground is dull and noisy, and what is drawn over it is sharp, so that its corners weigh more.
+TEST(BurnedInGraphics, DoNotOutweighADullGroundFromTheFirstFrameOn) {
+    Watch watch;
+    const test::TexturedGround ground(41, 0.9);
+    const cv::Matx33d motion = test::cameraMotion(kSize, 1.9, 0.6, 0, 1);
+    cv::Matx33d picture_from_ground = cv::Matx33d::eye();
+    for (int i = 0; i < 8; ++i) {
+        cv::Mat picture = ground.picture(kSize, picture_from_ground.inv(), 3, static_cast<unsigned>(i) + 1);
+        for (int row = 0; row < 4; ++row) write(picture, "HDG 271 SPD 52", {170, 20 + 22 * row, 140, 18});
+        const RegisteredFrame frame = watch.seePicture(picture);
+        if (i > 0) {
+            EXPECT_EQ(frame.registration.state, RegistrationState::registered) << describe(frame.registration.failure);
+            EXPECT_LT(test::gridError(frame.registration.current_from_previous.matrix, motion, kSize), 0.3) << i;
+        }
+        picture_from_ground = motion * picture_from_ground;
+    }
+}
+
 /// A large thing that both pictures show at one place correlates better than a poor ground.
 TEST(BurnedInGraphics, DoNotTellTheCamerasMotionWhenItIsSearchedFor) {
     const cv::Size size(256, 192);

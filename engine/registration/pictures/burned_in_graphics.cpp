@@ -22,6 +22,7 @@ constexpr float kSteepest = 3;      ///< mean gradient of graphics, grey levels 
 constexpr float kCoherence = 0.3F;  ///< share of the gradient's energy that stays, of graphics …
 constexpr float kByChance = 3;      ///< … and of what has been seen this often; ground has 1 by chance
 constexpr int kAround = 2;          ///< px around a pixel that are judged together
+constexpr int kBorder = 4;          ///< px at the border, where codecs and lenses leave a frame around the ground
 constexpr int kFewestPixels = 6;    ///< less is chance
 constexpr int kGlyphs = 15;         ///< px beside each other that belong together: figures between figures …
 constexpr int kLine = 5;            ///< … and above each other
@@ -179,15 +180,15 @@ cv::Mat BurnedInGraphics::stayingEdges() const {
     const auto at = [&](int x, int y) { return std::size_t(y) * std::size_t(width) + std::size_t(x); };
     const auto stays = [&](std::size_t i) { return along_x_[i] * along_x_[i] + along_y_[i] * along_y_[i]; };
     cv::Mat found = cv::Mat::zeros(level_size_, CV_8UC1);
-    tbb::parallel_for(tbb::blocked_range<int>(0, height), [&](const tbb::blocked_range<int>& range) {
+    tbb::parallel_for(tbb::blocked_range<int>(kBorder, height - kBorder), [&](const tbb::blocked_range<int>& range) {
         for (int y = range.begin(); y < range.end(); ++y) {
-            for (int x = 0; x < width; ++x) {
+            for (int x = kBorder; x < width - kBorder; ++x) {
                 const float seen = weight_[at(x, y)];
                 if (seen < kFewest || stays(at(x, y)) < seen * seen * kSteepest * kSteepest) continue;
                 float staying = 0;
                 float all = 0;
-                for (int v = std::max(0, y - kAround); v <= std::min(height - 1, y + kAround); ++v) {
-                    for (int u = std::max(0, x - kAround); u <= std::min(width - 1, x + kAround); ++u) {
+                for (int v = y - kAround; v <= y + kAround; ++v) {
+                    for (int u = x - kAround; u <= x + kAround; ++u) {
                         staying += stays(at(u, v));
                         all += energy_[at(u, v)] * weight_[at(u, v)];
                     }
