@@ -12,23 +12,23 @@
 namespace eyrie {
 namespace {
 
-constexpr int kWidest = 1000;       ///< px of the pictures that are looked at, by level of the pyramid
-constexpr int kCell = 16;           ///< px of such a picture in which the ground's motion is one
-constexpr double kShortest = 3;     ///< px of the ground's way from look to look, so that it shows something else …
-constexpr double kLongest = 6;      ///< … not always the same, as the ground may repeat itself
-constexpr float kMemory = 60;       ///< looks
-constexpr float kFewest = 9;        ///< weight from which on a pixel can be judged
-constexpr float kSteepest = 3;      ///< mean gradient of graphics, grey levels per px
-constexpr float kCoherence = 0.3F;  ///< share of the gradient's energy that stays, of graphics …
-constexpr float kByChance = 3;      ///< … and of what has been seen this often; ground has 1 by chance
-constexpr int kAround = 2;          ///< px around a pixel that are judged together
-constexpr int kBorder = 4;          ///< px at the border, where codecs and lenses leave a frame around the ground
-constexpr int kFewestPixels = 6;    ///< less is chance
-constexpr int kGlyphs = 15;         ///< px beside each other that belong together: figures between figures …
-constexpr int kLine = 5;            ///< … and above each other
-constexpr double kMostShare = 0.3;  ///< of the picture; more is no graphics
-constexpr int kOldEnough = 8;       ///< frames of a corner that tells whether it stays …
-constexpr double kStillPx = 0.2;    ///< … by this in the picture
+constexpr int kWidest = 1000;        ///< px of the pictures that are looked at, by level of the pyramid
+constexpr int kCell = 16;            ///< px of such a picture in which the ground's motion is one
+constexpr double kShortest = 3;      ///< px of the ground's way from look to look, so that it shows something else …
+constexpr double kLongest = 6;       ///< … not always the same, as the ground may repeat itself
+constexpr float kMemory = 60;        ///< looks
+constexpr float kFewest = 9;         ///< weight from which on a pixel can be judged
+constexpr float kLeastGradient = 3;  ///< mean gradient of graphics, grey levels per px
+constexpr float kCoherence = 0.3F;   ///< share of the gradient's energy that stays, of graphics …
+constexpr float kByChance = 3;       ///< … and of what has been seen this often; ground has 1 by chance
+constexpr int kAround = 2;           ///< px around a pixel that are judged together
+constexpr int kBorder = 4;           ///< px at the border, where codecs and lenses leave a frame around the ground
+constexpr int kFewestPixels = 6;     ///< less is chance
+constexpr int kGlyphs = 15;          ///< px beside each other that belong together: figures between figures …
+constexpr int kLine = 5;             ///< … and above each other
+constexpr double kMostShare = 0.3;   ///< of the picture; more is no graphics
+constexpr int kOldEnough = 8;        ///< frames of a corner that tells whether it stays …
+constexpr double kStillPx = 0.2;     ///< … by this in the picture
 constexpr double kLongestVehicle = 0.15;  ///< share of the picture's width; longer things need no corners to tell
 
 /// Between kShortest and kLongest, the same for the same look.
@@ -184,7 +184,7 @@ cv::Mat BurnedInGraphics::stayingEdges() const {
         for (int y = range.begin(); y < range.end(); ++y) {
             for (int x = kBorder; x < width - kBorder; ++x) {
                 const float seen = weight_[at(x, y)];
-                if (seen < kFewest || stays(at(x, y)) < seen * seen * kSteepest * kSteepest) continue;
+                if (seen < kFewest || stays(at(x, y)) < seen * seen * kLeastGradient * kLeastGradient) continue;
                 float staying = 0;
                 float all = 0;
                 for (int v = y - kAround; v <= y + kAround; ++v) {
