@@ -14,8 +14,8 @@
 
 #include "chain/progress_meter.h"
 #include "chain/recording/chain_state.h"
+#include "chain/repeated_pictures.h"
 #include "core/error.h"
-#include "core/measure_text.h"
 #include "core/values/last_frame.h"
 #include "core/values/stopwatch.h"
 #include "io/clock_jumps.h"
@@ -205,30 +205,6 @@ StageTimes medianTimes(const std::vector<StageTimes>& frames) {
     return median;
 }
 
-/// Where so many pictures repeat the one before that the video was made of another one of fewer pictures a second.
-class Repeats {
- public:
-    void see(RegistrationState state) {
-        ++frames_;
-        repeats_ += state == RegistrationState::frozen;
-    }
-    /// What it means and what to do about it, for people; empty where few repeat.
-    std::string text(double frame_rate_hz) const {
-        constexpr int kFewestFrames = 20;
-        constexpr double kFewestShare = 0.3;
-        if (frames_ < kFewestFrames || repeats_ < kFewestShare * frames_) return {};
-        const double differing = std::max(1, frames_ - repeats_);
-        return std::to_string(repeats_) + " of " + std::to_string(frames_) +
-               " pictures repeat the one before, so that speeds are told " + numberText(frames_ / differing) +
-               " times as high as they are; for true ones make the video anew without repeats, with " +
-               numberText(frame_rate_hz * differing / frames_) + " pictures a second";
-    }
-
- private:
-    int frames_ = 0;
-    int repeats_ = 0;
-};
-
 std::string grownText(FrameIndex last) {
     return "the video has grown since it was opened; the run ends with frame " + std::to_string(last) +
            ", which was the last one then; open it again and make a run over the rest";
@@ -265,7 +241,7 @@ RunSummary ChainRun::run(FrameSource& source, FrameRange range, ChainObserver& o
         StateClock clock(observer.stateKeeping());
         ProgressMeter meter(summary.frames_total, summary.frames_done);
         ClockJumps jumps(source.info().frame_rate_hz);
-        Repeats repeats;
+        RepeatedPictures repeats;
         Producer first_half(source, {progress->last_done + 1, range.last}, with_colour, *progress, clock, queue);
         // Frame t+1 is registered on this thread while frame t is segmented and tracked below.
         std::jthread producer([&] { first_half.work(stop); });

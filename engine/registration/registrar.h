@@ -11,7 +11,7 @@
 #include "registration/corners/corner_detector.h"
 #include "registration/corners/corner_tracker.h"
 #include "registration/estimation/homography_estimator.h"
-#include "registration/pictures/burned_in_graphics.h"
+#include "registration/graphics/burned_in_graphics.h"
 #include "registration/pictures/image_pyramid.h"
 #include "registration/pictures/picture_difference.h"
 #include "registration/registration_options.h"

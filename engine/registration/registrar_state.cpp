@@ -51,10 +51,9 @@ void CornerSet::transfer(Archive& archive) {
 
 template <class Archive>
 void BurnedInGraphics::transfer(Archive& archive) {
-    archive(size_, level_, level_size_, way_, wanted_px_, looks_, along_x_, along_y_, energy_, weight_);
+    archive(size_, level_, way_, looks_, along_x_, along_y_, energy_, weight_);
     archive.require(level_ >= 0 && level_ < ImagePyramid::kMaxLevels, "a level that no picture has");
-    archive.require(level_size_.width == size_.width >> level_ && level_size_.height == size_.height >> level_,
-                    "a level of another picture");
+    archive.require(size_.width >= 0 && size_.height >= 0, "a picture of negative size");
     for (const auto* sum : {&along_x_, &along_y_, &energy_, &weight_})
         archive.require(sum->size() == pixels(), "sums of another picture");
     std::vector<std::uint8_t> marked;
@@ -63,7 +62,7 @@ void BurnedInGraphics::transfer(Archive& archive) {
     archive.require(marked.empty() || marked.size() == pixels(), "graphics of another picture");
     if constexpr (Archive::reading) {
         mask_ = {};
-        if (!marked.empty()) mask_ = {cv::Mat(level_size_, CV_8UC1, marked.data()).clone(), 1 << level_};
+        if (!marked.empty()) mask_ = {cv::Mat(levelSize(), CV_8UC1, marked.data()).clone(), 1 << level_};
     }
 }
 

@@ -4,7 +4,7 @@
 #include "registration/corners/corner_detector.h"
 #include "registration/corners/corner_tracker.h"
 #include "registration/estimation/homography_estimator.h"
-#include "registration/pictures/burned_in_graphics.h"
+#include "registration/graphics/burned_in_graphics.h"
 
 namespace eyrie {
 

@@ -66,6 +66,10 @@ TEST(HardInput, everyPictureTwiceIsFollowedAndSaysWhatItsSpeedsAre) {
               "40 of 80 pictures repeat the one before, so that speeds are told 2 times as high as they are; for true "
               "ones make the video anew without repeats, with 12.5 pictures a second");
     EXPECT_EQ(result.confirmedAt(2 * scene.frames - 2), 2);
+    test::MemorySource stalled(2 * scene.frames, scene.size,
+                               [&](int i) { return scene.draw(std::max(0, i - scene.frames)); });
+    EXPECT_EQ(ChainRun(ChainOptions{}, scale()).run(stalled, {}, result, {}).message, "")
+        << "one picture for half the time is no rate";
     const RunSummary usual = [&] {
         test::MemorySource once(scene);
         return ChainRun(ChainOptions{}, scale()).run(once, {}, result, {});

@@ -36,6 +36,7 @@ float squareOf(cv::Point2f d) {
 }
 
 /// Notes for how long a corner has stayed where it is in the picture. `map`: of the ground into the new picture.
+/// `may_stick`: whether it is to be left out for that.
 void noteStay(TrackedCorner& corner, cv::Point2f position, const cv::Matx33d& map, int frames, bool may_stick) {
     if (corner.age == 0) corner.held = corner.ground = corner.position;
     if (squareOf(position - corner.held) > kHeldPx * kHeldPx) {
@@ -45,10 +46,11 @@ void noteStay(TrackedCorner& corner, cv::Point2f position, const cv::Matx33d& ma
         return;
     }
     if (corner.sticks) return;  // where its ground has gone meanwhile says no more
-    corner.ground = PointJacobian(map, corner.ground).point;
     corner.held_frames += frames;
-    corner.sticks = may_stick && corner.held_frames >= kHeldFrames &&
-                    squareOf(corner.ground - corner.held) > kGroundGonePx * kGroundGonePx;
+    if (!may_stick) return;
+    corner.ground = PointJacobian(map, corner.ground).point;
+    corner.sticks =
+        corner.held_frames >= kHeldFrames && squareOf(corner.ground - corner.held) > kGroundGonePx * kGroundGonePx;
 }
 
 /// The turn so far, followed by that of one more step.

@@ -45,18 +45,18 @@ class BurnedInGraphics {
 
  private:
     void look(const PaddedPicture& picture);
-    cv::Mat candidates() const;
-    void findMask(const CornerSet& corners);
     /// Pixels of the level whose gradient stays where it is.
     cv::Mat stayingEdges() const;
-    std::size_t pixels() const { return std::size_t(level_size_.width) * std::size_t(level_size_.height); }
+    /// What they are parts of, without specks: lines of text, marks. Empty where there is nothing.
+    cv::Mat candidates() const;
+    void findMask(const CornerSet& corners);
+    cv::Size levelSize() const { return {size_.width >> level_, size_.height >> level_}; }
+    std::size_t pixels() const { return std::size_t(levelSize().width) * std::size_t(levelSize().height); }
 
     GraphicsOptions options_;
     cv::Size size_;                         ///< of the pictures
     int level_ = 0;                         ///< of the pyramid, that is looked at
-    cv::Size level_size_;                   ///< of its pictures
     cv::Matx33d way_ = cv::Matx33d::eye();  ///< of the ground since the last look
-    double wanted_px_ = 0;                  ///< way of the ground until the next look
     std::uint32_t looks_ = 0;
     // Of every pixel of the level, row by row, fading over the looks; d is the gradient along the ground's motion, u
     // the direction of that motion, w the weight of a look.

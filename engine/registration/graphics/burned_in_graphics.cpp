@@ -1,4 +1,4 @@
-#include "registration/pictures/burned_in_graphics.h"
+#include "registration/graphics/burned_in_graphics.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -121,23 +121,22 @@ void BurnedInGraphics::add(const ImagePyramid& picture, const CornerSet& corners
         size_ = picture.size();
         level_ = 1;
         while (level_ + 1 < picture.levels() && picture.level(level_).width() > kWidest) ++level_;
-        level_size_ = {picture.level(level_).width(), picture.level(level_).height()};
-        wanted_px_ = wayUntil(0);
         for (std::vector<float>* sum : {&along_x_, &along_y_, &energy_, &weight_}) sum->assign(pixels(), 0.0F);
     }
     way_ = current_from_previous * way_;
-    if (usualWay(way_, size_) < wanted_px_) return;
+    if (usualWay(way_, size_) < wayUntil(looks_)) return;
     look(picture.level(level_));
     way_ = cv::Matx33d::eye();
-    wanted_px_ = wayUntil(++looks_);
+    ++looks_;
     findMask(corners);
 }
 
 void BurnedInGraphics::look(const PaddedPicture& picture) {
-    const int width = level_size_.width;
-    const int rows_of_cells = (level_size_.height + kCell - 1) / kCell;
+    const int width = picture.width();
+    const int height = picture.height();
+    const int rows_of_cells = (height + kCell - 1) / kCell;
     tbb::parallel_for(tbb::blocked_range<int>(0, rows_of_cells), [&](const tbb::blocked_range<int>& range) {
-        for (int top = range.begin() * kCell; top < std::min(range.end() * kCell, level_size_.height); top += kCell) {
+        for (int top = range.begin() * kCell; top < std::min(range.end() * kCell, height); top += kCell) {
             for (int left = 0; left < width; left += kCell) {
                 const cv::Point2f place = ImagePyramid::fromLevel(
                     {float(left) + (kCell - 1) / 2.0F, float(top) + (kCell - 1) / 2.0F}, level_);
@@ -148,7 +147,7 @@ void BurnedInGraphics::look(const PaddedPicture& picture) {
                 const float weight = std::min(1.0F, far / float(kShortest));
                 const float fade = 1 - weight / kMemory;
                 // Border pixels have no gradient; sums over three rows and columns make the mask of Sobel.
-                const int last_y = std::min(top + kCell, level_size_.height - 1);
+                const int last_y = std::min(top + kCell, height - 1);
                 const int last_x = std::min(left + kCell, width - 1);
                 for (int y = std::max(1, top); y < last_y; ++y) {
                     const std::uint8_t* above = picture.row(y - 1);
@@ -175,11 +174,11 @@ void BurnedInGraphics::look(const PaddedPicture& picture) {
 }
 
 cv::Mat BurnedInGraphics::stayingEdges() const {
-    const int width = level_size_.width;
-    const int height = level_size_.height;
+    const int width = levelSize().width;
+    const int height = levelSize().height;
     const auto at = [&](int x, int y) { return std::size_t(y) * std::size_t(width) + std::size_t(x); };
     const auto stays = [&](std::size_t i) { return along_x_[i] * along_x_[i] + along_y_[i] * along_y_[i]; };
-    cv::Mat found = cv::Mat::zeros(level_size_, CV_8UC1);
+    cv::Mat found = cv::Mat::zeros(levelSize(), CV_8UC1);
     tbb::parallel_for(tbb::blocked_range<int>(kBorder, height - kBorder), [&](const tbb::blocked_range<int>& range) {
         for (int y = range.begin(); y < range.end(); ++y) {
             for (int x = kBorder; x < width - kBorder; ++x) {
@@ -209,7 +208,7 @@ cv::Mat BurnedInGraphics::candidates() const {
     cv::copyMakeBorder(found, found, kLine, kLine, kGlyphs, kGlyphs, cv::BORDER_CONSTANT);
     cv::morphologyEx(found, found, cv::MORPH_CLOSE, cv::Mat1b::ones(kLine, kGlyphs));
     cv::dilate(found, found, cv::Mat1b::ones(3, 3));
-    return found(cv::Rect({kGlyphs, kLine}, level_size_)).clone();
+    return found(cv::Rect({kGlyphs, kLine}, levelSize())).clone();
 }
 
 void BurnedInGraphics::findMask(const CornerSet& corners) {
@@ -222,7 +221,7 @@ void BurnedInGraphics::findMask(const CornerSet& corners) {
     for (const TrackedCorner& corner : corners.corners) {
         if (corner.age < kOldEnough) continue;
         const cv::Point at(ImagePyramid::toLevel(corner.position, level_));
-        if (!cv::Rect({}, level_size_).contains(at)) continue;
+        if (!cv::Rect({}, levelSize()).contains(at)) continue;
         Components::Tally& tally = components.of(components.labels(at));
         const cv::Point2f gone = corner.position - corner.held;
         const bool still = corner.held_frames >= kOldEnough && std::hypot(gone.x, gone.y) <= kStillPx;
@@ -239,7 +238,7 @@ void BurnedInGraphics::findMask(const CornerSet& corners) {
         }
     }
     for (Components::Tally& tally : components.tallies) {
-        const bool larger = std::max(tally.width, tally.height) > kLongestVehicle * level_size_.width;
+        const bool larger = std::max(tally.width, tally.height) > kLongestVehicle * levelSize().width;
         tally.kept = tally.known || larger || (tally.still > 0 && tally.still >= tally.moving);
     }
     mask_ = {components.kept(), 1 << level_};
