@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "chain/recording/classified_vehicles.h"
-#include "core/values/stopwatch.h"
+#include "core/stopwatch.h"
 #include "detection/detector_table.h"
 #include "detection/roi_cutter.h"
 #include "removal/detection_probability.h"
@@ -22,14 +22,15 @@ DuplicateRemovalOptions duplicatesFor(const ChainOptions& options) {
 
 std::vector<Detection> removed(std::vector<Detection> detections, const FrameMotion& motion,
                                const ChainOptions& options, const SceneScale& scale, RemovalTrace* trace) {
-    detections = removeDuplicates(std::move(detections), motion, duplicatesFor(options), scale, trace);
-    detections = removeOutliers(std::move(detections), motion, options.outliers, scale);
+    const SceneScale here = scale.zoomed(motion.registration.zoom);
+    detections = removeDuplicates(std::move(detections), motion, duplicatesFor(options), here, trace);
+    detections = removeOutliers(std::move(detections), motion, options.outliers, here);
     if (looksThroughWindows(options.detection.method)) judgeDetections(detections, motion);
     return detections;
 }
 
-MotionHalf::MotionHalf(const ChainOptions& options, const SceneScale& scale)
-    : registrar_(options.registration, scale), independent_motion_(options.motion, scale) {}
+MotionHalf::MotionHalf(const ChainOptions& options, const SceneScale& scale, double zoom_before)
+    : registrar_(options.registration, scale, zoom_before), independent_motion_(options.motion, scale) {}
 
 FrameMotion MotionHalf::next(const Frame& frame, StageTimes& times) {
     const RegisteredFrame registered = registrar_.next(frame, &times);
@@ -38,11 +39,7 @@ FrameMotion MotionHalf::next(const Frame& frame, StageTimes& times) {
 }
 
 TrackHalf::TrackHalf(const ChainOptions& options, const SceneScale& scale)
-    : options_(options),
-      scale_(scale),
-      clustering_(options.clustering, scale),
-      search_(options.detection, scale),
-      tracker_(options.tracking, scale) {
+    : options_(options), scale_(scale), search_(options.detection, scale), tracker_(options.tracking, scale) {
     if (options.difference.method != MotionMethod::vectors)
         difference_ = std::make_unique<DifferenceMotion>(options.difference, scale);
     classifier_ = classifierOfBoxes(search_.detector(), options, scale);
@@ -56,7 +53,7 @@ std::vector<StackView> TrackHalf::stackViews(const Frame& frame, StackPictures p
 
 ClusteringTrace TrackHalf::clustering(const FrameMotion& motion) const {
     ClusteringTrace trace;
-    if (!difference_) clustering_.cluster(motion, &trace);
+    if (!difference_) clusteringIn(motion).cluster(motion, &trace);
     return trace;
 }
 
@@ -73,8 +70,12 @@ std::vector<SearchTrace> TrackHalf::trace(const Frame& frame, const FrameMotion&
     return traces;
 }
 
+MotionClustering TrackHalf::clusteringIn(const FrameMotion& motion) const {
+    return {options_.clustering, scale_.zoomed(motion.registration.zoom)};
+}
+
 std::vector<MotionCluster> TrackHalf::findClusters(const Frame& frame, const FrameMotion& motion) {
-    if (!difference_) return clustering_.cluster(motion);
+    if (!difference_) return clusteringIn(motion).cluster(motion);
     last_difference_ = difference_->next(frame, motion);
     return last_difference_.clusters;
 }
@@ -82,7 +83,8 @@ std::vector<MotionCluster> TrackHalf::findClusters(const Frame& frame, const Fra
 std::vector<MotionRoi> TrackHalf::stackedAreas(const Frame& frame, const FrameMotion& motion,
                                                const MotionCluster& cluster, int index) const {
     if (!stacker_) return {};
-    const OrientedBox extended = extendedCluster(cluster, frame.gray.size(), options_.detection, scale_);
+    const OrientedBox extended =
+        extendedCluster(cluster, frame.gray.size(), options_.detection, scale_.zoomed(motion.registration.zoom));
     return stacker_->replace(cluster, index, extended, motion);
 }
 
@@ -130,7 +132,7 @@ FrameResult TrackHalf::next(const Frame& frame, FrameMotion motion, StageTimes t
     }
     if (classifier_) {
         const Stopwatch watch(times, Stage::detection);
-        classifier_->judge(result.detections, frame);
+        classifier_->judge(result.detections, frame, result.motion.registration.zoom);
     }
     if (stacker_) {
         const Stopwatch watch(times, Stage::stacking);

@@ -20,14 +20,16 @@ namespace eyrie {
 DuplicateRemovalOptions duplicatesFor(const ChainOptions& options);
 
 /// The detections of a frame after duplicates and outliers were rejected (Teutsch §5.5), with their probability where a
-/// classifier takes part. `trace`, if given, receives which duplicates of what were found.
+/// classifier takes part. `scale`: that of the run's first frame. `trace`, if given, receives which duplicates of what
+/// were found.
 std::vector<Detection> removed(std::vector<Detection> detections, const FrameMotion& motion,
                                const ChainOptions& options, const SceneScale& scale, RemovalTrace* trace = nullptr);
 
 /// First half of the chain, pixels → motion vectors (Teutsch chapter 4). Frames must come in ascending order.
 class MotionHalf {
  public:
-    MotionHalf(const ChainOptions& options, const SceneScale& scale);
+    /// `scale`: of the run's first frame; `zoom_before`: Registration::zoom of the first frame that will come.
+    MotionHalf(const ChainOptions& options, const SceneScale& scale, double zoom_before = 1);
     FrameMotion next(const Frame& frame, StageTimes& times);
 
     /// What is remembered of the frames so far, written or read; see core/state_archive.h. To be read into one of the
@@ -51,6 +53,7 @@ struct SearchTrace {
 /// Second half of the chain, motion vectors → tracks (Teutsch chapters 5 and 6). Frames must come in ascending order.
 class TrackHalf {
  public:
+    /// `scale`: of the run's first frame.
     TrackHalf(const ChainOptions& options, const SceneScale& scale);
     /// `frame` gives the pixels that belong to `motion`.
     FrameResult next(const Frame& frame, FrameMotion motion, StageTimes times);
@@ -76,6 +79,7 @@ class TrackHalf {
     void transfer(Archive& archive);
 
  private:
+    MotionClustering clusteringIn(const FrameMotion& motion) const;
     std::vector<MotionCluster> findClusters(const Frame& frame, const FrameMotion& motion);
     /// What stacks offer for a cluster; nothing: it is searched in the raw image.
     std::vector<MotionRoi> stackedAreas(const Frame& frame, const FrameMotion& motion, const MotionCluster& cluster,
@@ -86,7 +90,6 @@ class TrackHalf {
 
     ChainOptions options_;
     SceneScale scale_;
-    MotionClustering clustering_;
     std::unique_ptr<DifferenceMotion> difference_;  ///< null: clusters come from motion vectors
     DifferenceResult last_difference_;
     std::unique_ptr<ImageStacker> stacker_;  ///< null: no stacking

@@ -16,8 +16,8 @@
 #include "chain/recording/chain_state.h"
 #include "chain/repeated_pictures.h"
 #include "core/error.h"
+#include "core/stopwatch.h"
 #include "core/values/last_frame.h"
-#include "core/values/stopwatch.h"
 #include "io/clock_jumps.h"
 #include "io/live/live_stream.h"
 

@@ -6,9 +6,8 @@
 namespace eyrie {
 
 std::unique_ptr<Detector> makeDetector(const DetectionOptions& options, const SceneScale& scale) {
-    const auto make = kindOf(options.method).make;
-    if (scale.slope.isFlat()) return make(options, scale);
-    return std::make_unique<ScaledDetectors>(scale, [&](const SceneScale& here) { return make(options, here); });
+    return std::make_unique<ScaledDetectors>(
+        scale, [options, make = kindOf(options.method).make](const SceneScale& here) { return make(options, here); });
 }
 
 }  // namespace eyrie

@@ -28,7 +28,8 @@ MotionRoi cutMotionRoi(const Frame& frame, const MotionCluster& cluster, int clu
         throw Error(ErrorKind::internal, "frame " + std::to_string(frame.index) + " has no 8 bit grey image to search");
     }
     MotionRoi roi;
-    roi.box = extendedCluster(cluster, frame.gray.size(), options, scale);
+    roi.zoom = motion.registration.zoom;
+    roi.box = extendedCluster(cluster, frame.gray.size(), options, scale.zoomed(roi.zoom));
     UprightPatch patch = cutUpright(frame.gray, roi.box);
     roi.image = patch.image;
     roi.inside = patch.inside;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace eyrie {
 namespace {
@@ -10,30 +11,36 @@ constexpr double kScaleStep = 1.1;  ///< between neighbouring detectors: vehicle
 
 }  // namespace
 
-ScaledDetectors::ScaledDetectors(const SceneScale& scale, const Make& make) : scale_(scale) {
+ScaledDetectors::ScaledDetectors(const SceneScale& scale, Make make) : scale_(scale), make_(std::move(make)) {
+    int first = 0;
     int last = 0;
     // Linear over the picture: the extremes lie at its corners.
     for (const double x : {0.0, 2 * scale.slope.centre_x}) {
         for (const double y : {0.0, 2 * scale.slope.centre_y}) {
-            first_ = std::min(first_, stepAt({x, y}));
-            last = std::max(last, stepAt({x, y}));
+            first = std::min(first, stepAt({x, y}, 1));
+            last = std::max(last, stepAt({x, y}, 1));
         }
     }
-    for (int step = first_; step <= last; ++step) {
-        SceneScale here = scale;
+    for (int step = first; step <= last; ++step) detectorAt(step);
+}
+
+int ScaledDetectors::stepAt(cv::Point2d place, double zoom) const {
+    const cv::Point2d farthest = 2 * scale_.slope.centre();
+    if (!scale_.slope.isFlat()) place = {std::clamp(place.x, 0.0, farthest.x), std::clamp(place.y, 0.0, farthest.y)};
+    const double larger = scale_.gsd_m_per_px / scale_.zoomed(zoom).at(place).gsd_m_per_px;
+    return static_cast<int>(std::lround(std::log(larger) / std::log(kScaleStep)));
+}
+
+const Detector& ScaledDetectors::detectorAt(int step) const {
+    const std::scoped_lock lock(mutex_);
+    std::unique_ptr<Detector>& detector = detectors_[step];
+    if (!detector) {
+        SceneScale here = scale_;
         here.slope = {};
         here.gsd_m_per_px /= std::pow(kScaleStep, step);
-        detectors_.push_back(make(here));
+        detector = make_(here);
     }
-}
-
-int ScaledDetectors::stepAt(cv::Point2d place) const {
-    return static_cast<int>(std::lround(std::log(scale_.slope.factorAt(place)) / std::log(kScaleStep)));
-}
-
-const Detector& ScaledDetectors::detectorFor(const MotionRoi& roi) const {
-    const int last = static_cast<int>(detectors_.size()) - 1;
-    return *detectors_[static_cast<std::size_t>(std::clamp(stepAt(roi.box.centre) - first_, 0, last))];
+    return *detector;
 }
 
 std::vector<Detection> ScaledDetectors::detect(const MotionRoi& roi, DetectionTrace* trace) const {

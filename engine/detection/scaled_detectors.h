@@ -1,7 +1,9 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "core/values/scene_scale.h"
@@ -9,28 +11,32 @@
 
 namespace eyrie {
 
-/// One detector for each of a few scales of an oblique view: a search area goes to the one whose scale is next to that
-/// at its place, or at the picture's nearest place.
+/// One detector for each of a few scales: in an oblique view, and where the camera zooms, a search area goes to the one
+/// whose scale is next to that at its place, or at the picture's nearest place.
 class ScaledDetectors : public Detector {
  public:
     using Make = std::function<std::unique_ptr<Detector>(const SceneScale& here)>;
 
-    /// Makes those that a picture needs whose middle is the slope's centre. Throws what `make` throws.
-    ScaledDetectors(const SceneScale& scale, const Make& make);
+    /// `scale`: of the first frame. Makes those that its picture needs, whose middle is the slope's centre; others when
+    /// they are first asked for. Throws what `make` throws.
+    ScaledDetectors(const SceneScale& scale, Make make);
 
     std::vector<Detection> detect(const MotionRoi& roi, DetectionTrace* trace = nullptr) const override;
     std::unique_ptr<const PreparedArea> prepare(const MotionRoi& roi) const override;
     std::vector<Detection> decide(const MotionRoi& roi, const PreparedArea* prepared) const override;
     /// That of all of them.
-    const VehicleModel* model() const override { return detectors_.front()->model(); }
+    const VehicleModel* model() const override { return detectorAt(0).model(); }
 
  private:
-    int stepAt(cv::Point2d place) const;
-    const Detector& detectorFor(const MotionRoi& roi) const;
+    /// Step 0 is the scale at the centre of the first frame.
+    int stepAt(cv::Point2d place, double zoom) const;
+    const Detector& detectorAt(int step) const;
+    const Detector& detectorFor(const MotionRoi& roi) const { return detectorAt(stepAt(roi.box.centre, roi.zoom)); }
 
     SceneScale scale_;
-    int first_ = 0;  ///< step of the first detector, ≤ 0; step 0 is the scale at the centre
-    std::vector<std::unique_ptr<Detector>> detectors_;
+    Make make_;
+    mutable std::mutex mutex_;
+    mutable std::map<int, std::unique_ptr<Detector>> detectors_;  ///< by step
 };
 
 }  // namespace eyrie

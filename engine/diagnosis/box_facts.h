@@ -48,7 +48,10 @@ struct BoxFacts {
 class FrameFacts {
  public:
     FrameFacts(FrameResult result, const ChainOptions& options, const SceneScale& scale, bool upright)
-        : result_(std::move(result)), options_(options), scale_(scale), upright_(upright) {}
+        : result_(std::move(result)),
+          options_(options),
+          scale_(scale.zoomed(result_.motion.registration.zoom)),
+          upright_(upright) {}
     BoxFacts at(const OrientedBox& box);
 
  private:
@@ -56,7 +59,7 @@ class FrameFacts {
 
     FrameResult result_;
     const ChainOptions& options_;
-    SceneScale scale_;
+    SceneScale scale_;  ///< of the frame
     bool upright_;
     std::optional<ClusteringTrace> clustering_;  ///< made when it is asked for
 };

@@ -28,12 +28,13 @@ Event eventAt(const EventScene& scene, EventKind kind, const GroundPath& path, c
 
 void setSpeed(Event& event, const EventScene& scene, double metres_per_second) {
     const bool known = scene.scale.gsd_known;
-    event.figure = known ? metres_per_second * 3.6 : scene.scale.at(event.place).pxPerFrame(metres_per_second);
+    event.figure =
+        known ? metres_per_second * 3.6 : scene.scale.at(event.frame, event.place).pxPerFrame(metres_per_second);
     event.unit = known ? FigureUnit::km_per_hour : FigureUnit::px_per_frame;
 }
 
 void setLength(Event& event, const EventScene& scene, double metres) {
-    event.figure = scene.scale.gsd_known ? metres : scene.scale.at(event.place).px(metres);
+    event.figure = scene.scale.gsd_known ? metres : scene.scale.at(event.frame, event.place).px(metres);
     event.unit = scene.scale.gsd_known ? FigureUnit::metres : FigureUnit::px;
 }
 

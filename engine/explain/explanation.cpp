@@ -266,7 +266,8 @@ OrientedBox placeAt(cv::Point2d point, const SceneScale& scale) {
 
 Explanation explain(const PlaceEvidence& evidence, const ChainOptions& options, const SceneScale& scale) {
     using namespace explaining;
-    Story story{evidence, options, scale, scale.at(evidence.area.centre)};
+    const SceneScale of_frame = scale.zoomed(evidence.result.motion.registration.zoom);
+    Story story{evidence, options, of_frame, of_frame.at(evidence.area.centre)};
     // The last stage that had the object decides: what finishing left out had passed all those before.
     const auto left_out = leftOutAt(evidence);
     if (left_out) decideLeftOut(story, *left_out);

@@ -25,8 +25,8 @@ struct Story {
 
     const PlaceEvidence& evidence;
     const ChainOptions& options;
-    const SceneScale& scale;
-    const SceneScale here;  ///< the scale at the place
+    const SceneScale& scale;  ///< of the frame
+    const SceneScale here;    ///< the scale at the place
     Explanation told{};
     bool decided = false;
 };

@@ -11,7 +11,7 @@ std::optional<GroundMeasure> measureBetween(const GroundStretches& ground, const
     const cv::Point2d way = ground.toGround(to.frame, to.at) - ground.toGround(from.frame, from.at);
     const cv::Point2d seen = to.at - first->at;
     const SceneScale& scale = ground.footage().scale;
-    if (!scale.slope.isFlat()) return measureInFrame(scale, first->at, to.at);
+    if (!scale.slope.isFlat()) return measureInFrame(scale.in(to.frame), first->at, to.at);
     return GroundMeasure{std::hypot(way.x, way.y), std::hypot(seen.x, seen.y)};
 }
 

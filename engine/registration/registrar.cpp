@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "core/values/stopwatch.h"
+#include "core/stopwatch.h"
 #include "registration/estimation/point_jacobian.h"
 #include "registration/pictures/noise_level.h"
 #include "registration/pictures/scaled_to_one.h"
@@ -41,11 +41,18 @@ void removeWhere(CornerSet& set, const PictureMask& mask) {
 
 }  // namespace
 
-Registrar::Registrar(const RegistrationOptions& options, const SceneScale& scale)
+Registrar::Registrar(const RegistrationOptions& options, const SceneScale& scale, double zoom_before)
     : options_(options),
-      detector_(options.corners, scale),
-      tracker_(options.tracking, scale),
-      graphics_(options.graphics) {}
+      scale_(scale),
+      detector_(options.corners, scale.zoomed(zoom_before)),
+      tracker_(options.tracking, scale.zoomed(zoom_before)),
+      graphics_(options.graphics),
+      zoom_(scale, zoom_before) {}
+
+void Registrar::zoomTo(double zoom) {
+    detector_ = CornerDetector(options_.corners, scale_.zoomed(zoom));
+    tracker_.setFastest(scale_.zoomed(zoom));
+}
 
 void Registrar::reset() {
     anchor_.reset();
@@ -53,6 +60,8 @@ void Registrar::reset() {
     estimator_.reset();
     repetition_.reset();
     graphics_.reset();
+    zoom_.reset();
+    zoomTo(1);
     motion_ = cv::Matx33d::eye();
     repeated_ = 0;
     usual_corners_ = 0;
@@ -110,6 +119,9 @@ RegisteredFrame Registrar::next(const Frame& frame, StageTimes* times) {
         repeated_ = 0;
     }
     result.graphics = graphics_.mask();
+    const double zoom_before = zoom_.zoom();
+    result.registration.zoom = zoom_.next(result.registration, frame.gray.size());
+    if (result.registration.zoom != zoom_before) zoomTo(result.registration.zoom);
     last_frame_ = frame.index;
     return result;
 }

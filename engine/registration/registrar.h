@@ -16,6 +16,7 @@
 #include "registration/pictures/picture_difference.h"
 #include "registration/registration_options.h"
 #include "registration/search/coarse_registration.h"
+#include "registration/zoom_follower.h"
 
 namespace eyrie {
 
@@ -25,7 +26,8 @@ namespace eyrie {
 /// back, with the same ids, in the next that fits); after a cut it starts anew. Ids are never reused.
 class Registrar {
  public:
-    Registrar(const RegistrationOptions& options, const SceneScale& scale);
+    /// `scale`: of the run's first frame; `zoom_before`: Registration::zoom of the first frame that will come.
+    Registrar(const RegistrationOptions& options, const SceneScale& scale, double zoom_before = 1);
 
     /// The next frame in order of time. Fills the times of corners, tracking_corners and homography when asked. Throws
     /// Error(input) for a frame that is empty, not CV_8UC1 or of another size than the one before; the registrar then
@@ -67,14 +69,18 @@ class Registrar {
     std::optional<Match> registerOnto(const Anchor& anchor, RegistrationFailure& failure, StageTimes& times) const;
     std::vector<cv::Matx33d> predictionsFor(const Anchor& anchor) const;
     void replenish(Anchor& anchor, StageTimes& times);
+    /// Sets what follows from the scale when the camera has zoomed so far.
+    void zoomTo(double zoom);
     void checkFrame(const Frame& frame) const;
 
     RegistrationOptions options_;
+    SceneScale scale_;  ///< of the first frame
     CornerDetector detector_;
     CornerTracker tracker_;
     std::optional<HomographyEstimator> estimator_;  ///< made for the size of the first frame
     RepetitionDetector repetition_;
     BurnedInGraphics graphics_;
+    ZoomFollower zoom_;
 
     std::optional<Anchor> anchor_;  ///< the newest usable picture
     std::optional<Anchor> older_;   ///< the last good picture before frames that failed

@@ -67,6 +67,12 @@ void BurnedInGraphics::transfer(Archive& archive) {
 }
 
 template <class Archive>
+void ZoomFollower::transfer(Archive& archive) {
+    archive(zoom_log_, zooming_, pending_);
+    archive.require(std::abs(zoom_log_) < 10 && pending_.size() <= window_, "a zoom that no camera has");
+}
+
+template <class Archive>
 void Registrar::Anchor::transfer(Archive& archive) {
     if constexpr (Archive::reading) {
         pyramid.build(archive.picture(frame, {}));
@@ -91,12 +97,14 @@ void Registrar::transfer(Archive& archive) {
     anchor(anchor_);
     anchor(older_);
     graphics_.transfer(archive);
+    zoom_.transfer(archive);
     archive(repetition_, motion_, repeated_, usual_corners_, last_frame_, next_id_);
     for (const auto* one : {&anchor_, &older_}) {
         archive.require(!*one || (*one)->corners.size() == 0 || (*one)->corners.corners.back().id < next_id_,
                         "a corner from the future");
     }
     if constexpr (Archive::reading) {
+        zoomTo(zoom_.zoom());
         estimator_.reset();
         if (anchor_) estimator_.emplace(options_.homography, anchor_->pyramid.size());
     }

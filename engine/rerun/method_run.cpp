@@ -8,7 +8,7 @@
 #include "chain/recording/classified_vehicles.h"
 #include "core/error.h"
 #include "core/labels/result_box.h"
-#include "core/values/stopwatch.h"
+#include "core/stopwatch.h"
 #include "detection/sliding_window/global_sliding_window.h"
 #include "detection/sliding_window/model_location.h"
 #include "peer/difference_peer.h"
@@ -50,8 +50,8 @@ class Method {
         } else {
             found->motion = motion;
             const Stopwatch watch(found->stage_ms, Stage::detection);
-            found->detections =
-                globalSlidingWindow(*scanner_, frame.gray, variant_.options.detection.sliding_window, scale_);
+            found->detections = globalSlidingWindow(*scanner_, frame.gray, variant_.options.detection.sliding_window,
+                                                    scale_.zoomed(motion.registration.zoom));
         }
         keep(*found);
         return {{frame, found}};
@@ -66,7 +66,7 @@ class Method {
                           {vectorsIn(vectors), classifiedVehicles(variant_.options, classifiedIn(classified_))})) {
             result_.tracks[frame].push_back(boxOf(frame, state));
         }
-        nameClasses(result_.tracks, scale_, variant_.options.classes);
+        nameClasses(result_.tracks, GroundMotion(motions).zooming(scale_), variant_.options.classes);
         for (std::size_t stage = 0; stage < result_.median_ms.size() && !times_.empty(); ++stage) {
             std::vector<float> values;
             for (const StageTimes& times : times_) values.push_back(times[stage]);

@@ -27,7 +27,7 @@ bool MotionWindow::cover(FrameIndex first, FrameIndex last, const std::function<
     if (!goes_on) {
         frames_.clear();
         registered_.clear();
-        registrar_.emplace(options_, scale_);
+        registrar_.emplace(options_, scale_, scale_.zoom.at(first));
     }
     for (FrameIndex frame = goes_on ? frames_.back().index + 1 : first; frame <= last; ++frame) {
         if (stop.stop_requested()) return false;

@@ -87,7 +87,8 @@ FrameResult Preview::secondHalf(Known& known, const ChainOptions& options) {
     result.motion = motionOf(known);
     const std::string clusters_for = signatureUpTo(options, ChainStage::clustering);
     if (known.clusters_for != clusters_for) {
-        known.clusters = MotionClustering(options.clustering, source_.scale).cluster(result.motion);
+        const SceneScale scale = source_.scale.zoomed(result.motion.registration.zoom);
+        known.clusters = MotionClustering(options.clustering, scale).cluster(result.motion);
         known.clusters_for = clusters_for;
         known.found_for.clear();
     }

@@ -18,14 +18,14 @@ constexpr int kLeadFrames = 40;  ///< for tracks to be confirmed and their filte
 /// What does one frame after the other: the whole chain, all behind motion vectors, or tracking alone.
 class Worker {
  public:
-    Worker(const ReplaySource& source, const ChainOptions& options, ChainStage start)
+    Worker(const ReplaySource& source, const ChainOptions& options, ChainStage start, FrameIndex first)
         : source_(source), start_(start), options_(options) {
         if (start_ >= ChainStage::tracking) {
             tracker_.emplace(options.tracking, source.scale);
             return;
         }
         half_.emplace(options, source.scale);
-        if (start_ <= ChainStage::motion) motion_half_.emplace(options, source.scale);
+        if (start_ <= ChainStage::motion) motion_half_.emplace(options, source.scale, source.scale.zoom.at(first));
     }
 
     /// Nothing when the run has no such frame.
@@ -64,7 +64,7 @@ std::optional<RangeResult> runRange(const ReplaySource& source, const ChainOptio
     const FrameIndex begin = std::max(source.first_frame, wanted - std::max(kLeadFrames, framesBefore(options)));
     const int total = std::max(0, range.last - begin + 1);
     result.exact = begin == source.first_frame;
-    Worker worker(source, options, result.start);
+    Worker worker(source, options, result.start, begin);
     std::vector<TimedState> states;
     std::vector<FrameMotionSummary> motions;
     VectorsByFrame vectors;
@@ -94,6 +94,7 @@ std::optional<RangeResult> runRange(const ReplaySource& source, const ChainOptio
         done = std::move(finished);
     }
     result.frames = std::move(frames);
+    result.scale = GroundMotion(motions).zooming(source.scale);
     return result;
 }
 

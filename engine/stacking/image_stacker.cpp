@@ -213,7 +213,8 @@ void ImageStacker::startFromDetections(const std::vector<Placed>& placed) {
     }
 }
 
-void ImageStacker::startFromClusters(const std::vector<Placed>& placed, const std::vector<MotionCluster>& clusters) {
+void ImageStacker::startFromClusters(const std::vector<Placed>& placed, const std::vector<MotionCluster>& clusters,
+                                     const SceneScale& scale) {
     for (const auto& cluster : clusters) {
         std::vector<const Placed*> free;
         for (const int member : cluster.members) {
@@ -221,7 +222,7 @@ void ImageStacker::startFromClusters(const std::vector<Placed>& placed, const st
             if (!owner_.count(p.vector->id)) free.push_back(&p);
         }
         if (free.size() < 3) continue;
-        const double vehicle = scale_.at(cluster.box.centre).px(options_.vehicle_length_m);
+        const double vehicle = scale.at(cluster.box.centre).px(options_.vehicle_length_m);
         const double vehicles = cluster.box.length / vehicle;
         const int k = std::clamp(static_cast<int>(std::lround(vehicles)), 1, static_cast<int>(free.size()));
         cv::Mat points(static_cast<int>(free.size()), 4, CV_32F);
@@ -264,7 +265,7 @@ void ImageStacker::update(const Frame& frame, const FrameMotion& motion, const s
     if (options_.initialisation == StackInitialisation::detections) {
         startFromDetections(placed);
     } else {
-        startFromClusters(placed, clusters);
+        startFromClusters(placed, clusters, scale_.zoomed(motion.registration.zoom));
     }
     std::erase_if(entries_, [](const Entry& entry) { return entry.master.related().empty(); });
     // Accumulation cuts whole areas at once; the circular arrangements cut nothing here.
@@ -309,6 +310,7 @@ std::vector<MotionRoi> ImageStacker::replace(const MotionCluster& cluster, int c
         roi.box = extended;
         roi.cluster = cluster_index;
         roi.velocity = cluster.velocity;
+        roi.zoom = motion.registration.zoom;
         roi.stack_layers = entry.stack.height();
         for (const int member : cluster.members) {
             const cv::Point2d p =

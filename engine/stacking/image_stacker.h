@@ -105,7 +105,8 @@ class ImageStacker {
     void moveMasters(const std::vector<Placed>& placed);
     void relateNewVectors(const std::vector<Placed>& placed, const std::vector<MotionCluster>& clusters);
     void startFromDetections(const std::vector<Placed>& placed);
-    void startFromClusters(const std::vector<Placed>& placed, const std::vector<MotionCluster>& clusters);
+    void startFromClusters(const std::vector<Placed>& placed, const std::vector<MotionCluster>& clusters,
+                           const SceneScale& scale);
     void start(const std::vector<const Placed*>& members);
     cv::Rect shownPart(StackPictures pictures) const;
     StackLayer layerOf(const Frame& frame, const MasterPose& pose) const;

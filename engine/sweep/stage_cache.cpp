@@ -185,16 +185,18 @@ std::shared_ptr<StageCache::Clusters> StageCache::differenceClusters(const Point
 }
 
 std::shared_ptr<const StageCache::Clusters> StageCache::clusters(const Point& point, const Motion& motion) {
-    return clusters_.get(
-        nameUpTo(point.options, point.scale, ChainStage::clustering), [&]() -> std::shared_ptr<const Clusters> {
-            count(ChainStage::clustering);
-            if (point.options.difference.method != MotionMethod::vectors) return differenceClusters(point, motion);
-            auto clusters = std::make_shared<Clusters>(motion.size());
-            const MotionClustering clustering(point.options.clustering, point.scale);
-            forFrames(point.stop,
-                      [&](std::size_t i, ClipFrames::Reader&) { (*clusters)[i] = clustering.cluster(motion[i]); });
-            return clusters;
-        });
+    return clusters_.get(nameUpTo(point.options, point.scale, ChainStage::clustering),
+                         [&]() -> std::shared_ptr<const Clusters> {
+                             count(ChainStage::clustering);
+                             if (point.options.difference.method != MotionMethod::vectors)
+                                 return differenceClusters(point, motion);
+                             auto clusters = std::make_shared<Clusters>(motion.size());
+                             forFrames(point.stop, [&](std::size_t i, ClipFrames::Reader&) {
+                                 const SceneScale scale = point.scale.zoomed(motion[i].registration.zoom);
+                                 (*clusters)[i] = MotionClustering(point.options.clustering, scale).cluster(motion[i]);
+                             });
+                             return clusters;
+                         });
 }
 
 std::shared_ptr<const StageCache::Detections> StageCache::found(const Point& point, const Motion& motion) {
@@ -271,7 +273,7 @@ std::shared_ptr<const StageCache::Detected> StageCache::detected(const Point& po
             forFrames(point.stop, [&](std::size_t i, ClipFrames::Reader& reader) {
                 detected->frames[i] = removed((*found)[i], motion[i], point.options, point.scale);
                 if (classifier && classifier->looksAt(motion[i].frame))
-                    classifier->judge(detected->frames[i], reader.read(motion[i].frame));
+                    classifier->judge(detected->frames[i], reader.read(motion[i].frame), motion[i].registration.zoom);
             });
         }
         detected->boxes = keptBoxes(motion, detected->frames);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <opencv2/core.hpp>
+#include <utility>
 
 #include "core/geometry/homography.h"
 #include "core/geometry/homography_jacobian.h"
@@ -56,11 +57,23 @@ void GroundMotion::add(const FrameMotionSummary& summary) {
     step.image_size = summary.image_size;
     step.frozen = summary.registration.state == RegistrationState::frozen;
     step.reliable = summary.registration.reliable();
+    step.zoom = summary.registration.zoom;
     step.forward = summary.registration.current_from_previous.matrix;
     bool invertible = false;
     if (isFinite(step.forward)) step.backward = step.forward.inv(cv::DECOMP_LU, &invertible);
     step.usable = invertible && isFinite(step.backward) && summary.registration.state != RegistrationState::first;
     steps_.push_back(step);
+}
+
+SceneScale GroundMotion::zooming(SceneScale scale) const {
+    std::vector<ZoomCourse::Change> changes;
+    double before = 1;
+    for (const Step& step : steps_) {
+        if (step.zoom != before) changes.emplace_back(step.frame, step.zoom);
+        before = step.zoom;
+    }
+    scale.zoom = ZoomCourse(std::move(changes));
+    return scale;
 }
 
 const GroundMotion::Step* GroundMotion::stepInto(FrameIndex frame) const {

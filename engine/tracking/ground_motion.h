@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/geometry/oriented_box.h"
-#include "core/values/scale_slope.h"
+#include "core/values/scene_scale.h"
 #include "tracking/finishing/track_finishing.h"
 
 namespace eyrie {
@@ -32,6 +32,8 @@ class GroundMotion {
 
     /// What moves over ground that is seen at an angle grows as it comes nearer; flat until told otherwise.
     void seenAt(const ScaleSlope& slope) { slope_ = slope; }
+    /// The scale of the first frame with the zoom of all.
+    SceneScale zooming(SceneScale scale) const;
     /// How much larger than at one place of a picture the same thing is at another; 1 where the view is flat.
     double enlargement(cv::Point2d from, cv::Point2d to) const { return slope_.factorAt(to) / slope_.factorAt(from); }
 
@@ -60,6 +62,7 @@ class GroundMotion {
         FrameIndex frame = 0;
         cv::Matx33d forward;   ///< from the frame before
         cv::Matx33d backward;  ///< to the frame before
+        double zoom = 1;       ///< since the first frame of the run
         bool usable = false;
         bool reliable = false;
         bool frozen = false;

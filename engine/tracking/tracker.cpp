@@ -44,9 +44,18 @@ bool isCut(const Registration& registration) {
 
 Tracker::Tracker(const TrackerOptions& options, const SceneScale& scale)
     : options_(options.atRate(scale.frame_rate_hz)),
+      first_scale_(scale),
       scale_(scale),
       model_(options, checked(scale)),
       manager_(options_, scale) {}
+
+void Tracker::zoomTo(double zoom) {
+    if (zoom == zoom_) return;
+    zoom_ = zoom;
+    scale_ = first_scale_.zoomed(zoom);
+    model_ = MeasurementModel(options_, scale_);
+    manager_ = TrackManager(options_, scale_);
+}
 
 double Tracker::gateAt(cv::Point2d place) const {
     return std::max(options_.distance_gate_px, scale_.at(place).px(options_.distance_gate_m));
@@ -64,6 +73,7 @@ void Tracker::reset() {
 std::vector<TrackState> Tracker::next(const FrameMotion& motion, const std::vector<Detection>& detections,
                                       TrackingTrace* trace, const PictureOfFrame& picture) {
     if (trace != nullptr) *trace = {};
+    zoomTo(motion.registration.zoom);
     model_.startFrame(motion.image_size, motion.background_speed_sigma);
     if (isCut(motion.registration)) tracks_.clear();
     switch (motion.registration.state) {

@@ -38,6 +38,8 @@ class Tracker {
     void transfer(Archive& archive);
 
  private:
+    /// Sets what follows from the scale in a frame.
+    void zoomTo(double zoom);
     void coastThroughFrozen();
     void coastThroughFailed(const FrameMotion& motion);
     void follow(const FrameMotion& motion, const std::vector<Detection>& detections, TrackingTrace* trace,
@@ -63,7 +65,9 @@ class Tracker {
     double gateAt(cv::Point2d place) const;
 
     TrackerOptions options_;
-    SceneScale scale_;
+    SceneScale first_scale_;  ///< of the first frame
+    double zoom_ = 1;         ///< of the frame in hand
+    SceneScale scale_;        ///< likewise
     MeasurementModel model_;
     TrackManager manager_;
     std::vector<Track> tracks_;

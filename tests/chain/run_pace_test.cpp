@@ -15,7 +15,7 @@
 namespace eyrie::run_pace_test {
 namespace {
 
-constexpr SceneScale kScale{0.2, 25, true};
+const SceneScale kScale{0.2, 25, true};
 
 /// Hardly anything to do: grey pictures, which take their time.
 struct GreyPictures : test::MemorySource {

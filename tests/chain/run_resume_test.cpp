@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <opencv2/imgcodecs.hpp>
 #include <random>
 #include <regex>
@@ -30,11 +31,19 @@ using Path = std::filesystem::path;
 constexpr int kFrames = 46;
 constexpr int kToTheEnd = 100000;  ///< more frames than there are
 
-/// The moving scene with a picture that repeats, a blank one and its repetition.
+constexpr int kZoomsFrom = 28;
+
+/// The moving scene with a picture that repeats, a blank one and its repetition, and a camera that zooms in at the end.
 cv::Mat picture(const test::MovingScene& scene, int frame) {
     if (frame == 17) return scene.draw(16);
     if (frame == 25 || frame == 26) return cv::Mat(scene.size, CV_8UC1, cv::Scalar(90));
-    return scene.draw(frame);
+    cv::Mat drawn = scene.draw(frame);
+    if (frame <= kZoomsFrom) return drawn;
+    const cv::Point2f middle(float(scene.size.width - 1) / 2, float(scene.size.height - 1) / 2);
+    cv::Mat zoomed;
+    cv::warpAffine(drawn, zoomed, cv::getRotationMatrix2D(middle, 0, std::pow(1.02, frame - kZoomsFrom)), scene.size,
+                   cv::INTER_CUBIC, cv::BORDER_REFLECT);
+    return zoomed;
 }
 
 const test::MovingScene& scene() {
@@ -205,6 +214,18 @@ TEST_F(StoppedRun, MayBeStoppedAgain) {
     EXPECT_EQ(resume(stopped, 1, 7).run.frames_done, 38);
     const Resumed last = resume(stopped, 1);
     EXPECT_EQ(last.seen.front(), 38);
+    expectSame(whole, stopped);
+}
+
+TEST_F(StoppedRun, GoesOnByTheZoomOfTheCamera) {
+    resume(stopped, 1, 10);  // in the middle of the zoom
+    resume(stopped, 1);
+    ProjectFile project = ProjectFile::open(stopped, ProjectFile::Mode::read_only);
+    const RunRecord run = RunStore(project).run(1).value();
+    EXPECT_EQ(run.scale.zoom.at(kZoomsFrom), 1);
+    const double zoom = std::pow(1.02, kFrames - 1 - kZoomsFrom);
+    EXPECT_NEAR(run.scale.zoom.at(kFrames - 1), zoom, 0.03 * zoom);
+    EXPECT_EQ(RunStore(project).frameResult(1, kFrames - 1)->motion.registration.zoom, run.scale.zoom.at(kFrames - 1));
     expectSame(whole, stopped);
 }
 

@@ -10,8 +10,8 @@
 namespace eyrie::light_finding_test {
 namespace {
 
-constexpr SceneScale kKnown{0.2, 25, true};
-constexpr SceneScale kGuessed{0.2, 25, false};
+const SceneScale kKnown{0.2, 25, true};
+const SceneScale kGuessed{0.2, 25, false};
 
 LightFinding shadows(FrameIndex first = 0, FrameIndex last = 99) {
     LightFinding finding;

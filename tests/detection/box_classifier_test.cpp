@@ -94,12 +94,21 @@ TEST(BoxClassifier, LooksAtKeptDetectionsSomeFourTimesASecond) {
     rejected.rejection = Rejection::outlier;
     std::vector<Detection> detections{kept, rejected};
     scene.frame.index = 5;
-    classifier().judge(detections, scene.frame);
+    classifier().judge(detections, scene.frame, 1);
     EXPECT_TRUE(std::isnan(detections[0].decision));
     scene.frame.index = 6;
-    classifier().judge(detections, scene.frame);
+    classifier().judge(detections, scene.frame, 1);
     EXPECT_EQ(detections[0].decision, classifier().at(scene.frame.gray, scene.vehicle));
     EXPECT_TRUE(std::isnan(detections[1].decision));
+}
+
+TEST(BoxClassifier, ExpectsLargerVehiclesWhenTheCameraHasZoomedIn) {
+    const auto scene = drivenScene(0.4, {150, 118}, 81);
+    cv::Mat zoomed;
+    cv::resize(scene.frame.gray, zoomed, {}, 2, 2, cv::INTER_CUBIC);
+    const OrientedBox there{scene.vehicle.centre * 2 + cv::Point2d(0.5, 0.5), scene.vehicle.length * 2,
+                            scene.vehicle.width * 2, scene.vehicle.heading};
+    EXPECT_GT(classifier().at(zoomed, there, 2), classifier().at(zoomed, there));
 }
 
 TEST(BoxClassifier, AsksTheModelOfTheDetectorThatOnlyThoseWithAClassifierHave) {

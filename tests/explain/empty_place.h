@@ -5,7 +5,7 @@
 namespace eyrie::test {
 
 /// 1 px is 25 cm, 1 px/frame is 6.25 m/s; a car is 18 × 7.2 px.
-inline constexpr SceneScale kPlaceScale{0.25, 25, true};
+inline const SceneScale kPlaceScale{0.25, 25, true};
 
 /// Options in which counts alone decide, however dense corners are, so that they can be worked out by hand.
 inline ChainOptions withoutDensity() {

@@ -10,7 +10,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr SceneScale kScale = test::kPlaceScale;  // a car is 18 px long
+const SceneScale kScale = test::kPlaceScale;  // a car is 18 px long
 
 CornerVerdict corner(CornerFate fate, double speed = 0, double limit = 1, int age = 20) {
     CornerVerdict verdict;

@@ -17,7 +17,7 @@ using testing::Not;
 using testing::StartsWith;
 using Lines = std::vector<std::string>;
 
-constexpr SceneScale kScale = test::kPlaceScale;  // a car is 18 px long, 1 px/frame are 6.25 m/s
+const SceneScale kScale = test::kPlaceScale;  // a car is 18 px long, 1 px/frame are 6.25 m/s
 
 CornerVerdict corner(CornerFate fate, int age = 20) {
     CornerVerdict verdict;

@@ -14,7 +14,7 @@ using testing::IsEmpty;
 using testing::Not;
 using Lines = std::vector<std::string>;
 
-constexpr SceneScale kScale = test::kPlaceScale;  // a car is 18 px long, 1 px/frame are 6.25 m/s
+const SceneScale kScale = test::kPlaceScale;  // a car is 18 px long, 1 px/frame are 6.25 m/s
 
 void addVectors(PlaceEvidence& evidence, const std::vector<cv::Point2f>& places) {
     for (const cv::Point2f& at : places) {

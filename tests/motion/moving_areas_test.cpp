@@ -19,7 +19,7 @@ using testing::IsEmpty;
 using testing::Not;
 using testing::SizeIs;
 
-constexpr SceneScale kScale{0.32, 25, true};
+const SceneScale kScale{0.32, 25, true};
 constexpr int kFrames = 12;
 
 /// A car of 14×6 px on a road with little texture, under a camera that pans. Axis-aligned pixels, drawn to a fraction.

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "store/labels/annotation_store.h"
 #include "store/labels/label_samples.h"
+#include "store/older_schema.h"
 #include "store/project/schema.h"
 #include "store/runs/result_writer.h"
 #include "store/samples.h"
@@ -137,12 +138,7 @@ TEST_F(ProjectFileTest, ANewerProjectIsRefusedAndLeftAlone) {
 
 TEST_F(ProjectFileTest, AnOlderProjectIsBroughtUpToDateEvenForReading) {
     test::writeSampleProject(path_, 2);
-    makeDatabase({"DROP VIEW v_light",
-                  "DROP VIEW v_frame_shadows",
-                  "DROP VIEW v_box_trims",
-                  "DROP TABLE light_finding",
-                  "DROP TABLE frame_shadow",
-                  "DROP TABLE box_trim",
+    makeDatabase({test::kBackToSchema27,
                   "DROP VIEW v_corrections",
                   "DROP TABLE correction",
                   "DROP VIEW v_track_evidence",
@@ -157,10 +153,8 @@ TEST_F(ProjectFileTest, AnOlderProjectIsBroughtUpToDateEvenForReading) {
                   "DROP TABLE bookmark",
                   "DROP TABLE review_step",
                   "DROP TABLE seen",
-                  "DROP VIEW v_frames",
                   "DROP VIEW v_detections",
                   "DROP VIEW v_track_states",
-                  "DROP VIEW v_tracks",
                   "DROP VIEW v_runs",
                   "ALTER TABLE run DROP COLUMN rate_assumed",
                   "ALTER TABLE run DROP COLUMN started_fraction_us",
@@ -411,27 +405,12 @@ TEST_F(ProjectFileTest, StatesOfBeforeSchemaTwentyAreReadAsTheyWere) {
         "END, "
         "origin = CASE origin WHEN '' THEN 'detected' WHEN 'r' THEN 'reconstructed' WHEN 'p' THEN 'predicted' ELSE "
         "origin END";
-    makeDatabase({"DROP VIEW v_light",
-                  "DROP VIEW v_frame_shadows",
-                  "DROP VIEW v_box_trims",
-                  "DROP TABLE light_finding",
-                  "DROP TABLE frame_shadow",
-                  "DROP TABLE box_trim",
-                  whole_words,
-                  "DROP VIEW v_track_states",
-                  "DROP VIEW v_tracks",
-                  "ALTER TABLE track DROP COLUMN score",
-                  "ALTER TABLE track DROP COLUMN x_sum",
-                  "ALTER TABLE track DROP COLUMN y_sum",
-                  "ALTER TABLE sequence DROP COLUMN start_utc",
-                  "DROP INDEX doubtful_state_of_track",
-                  "DROP VIEW v_detections",
-                  "DROP VIEW v_track_evidence",
-                  "ALTER TABLE detection DROP COLUMN decision",
-                  "ALTER TABLE track_evidence DROP COLUMN decision",
-                  "DROP TABLE rejected_proposal",
-                  "ALTER TABLE run DROP COLUMN started_fraction_us",
-                  "ALTER TABLE run DROP COLUMN source_digest",
+    makeDatabase({test::kBackToSchema27, whole_words, "DROP VIEW v_track_states", "ALTER TABLE track DROP COLUMN score",
+                  "ALTER TABLE track DROP COLUMN x_sum", "ALTER TABLE track DROP COLUMN y_sum",
+                  "ALTER TABLE sequence DROP COLUMN start_utc", "DROP INDEX doubtful_state_of_track",
+                  "DROP VIEW v_detections", "DROP VIEW v_track_evidence", "ALTER TABLE detection DROP COLUMN decision",
+                  "ALTER TABLE track_evidence DROP COLUMN decision", "DROP TABLE rejected_proposal",
+                  "ALTER TABLE run DROP COLUMN started_fraction_us", "ALTER TABLE run DROP COLUMN source_digest",
                   "CREATE INDEX track_state_of_track ON track_state (run_id, track_id, frame)",
                   "PRAGMA user_version = 19"});
     ProjectFile project = ProjectFile::open(path_);

@@ -9,6 +9,7 @@
 #include "store/health/project_check.h"
 #include "store/health/project_repair.h"
 #include "store/labels/annotation_store.h"
+#include "store/older_schema.h"
 #include "store/project/schema.h"
 #include "store/samples.h"
 #include "support/temporary_folder.h"
@@ -54,14 +55,12 @@ TEST_F(VideoStart, WhatIsSaidNowCountsBeforeWhatIsKept) {
 }
 
 TEST_F(VideoStart, IsNotKnownOfAProjectOfBefore) {
-    change(
-        "DROP VIEW v_light; DROP VIEW v_frame_shadows; DROP VIEW v_box_trims; DROP TABLE light_finding; DROP TABLE "
-        "frame_shadow; DROP TABLE box_trim; "
-        "ALTER TABLE sequence DROP COLUMN start_utc; DROP INDEX doubtful_state_of_track; DROP VIEW v_detections; "
-        "DROP VIEW v_track_evidence; ALTER TABLE detection DROP COLUMN decision; "
-        "ALTER TABLE track_evidence DROP COLUMN decision; DROP TABLE rejected_proposal; "
-        "ALTER TABLE run DROP COLUMN started_fraction_us; ALTER TABLE run DROP COLUMN source_digest; PRAGMA "
-        "user_version = 20");
+    change(test::kBackToSchema27 +
+           "ALTER TABLE sequence DROP COLUMN start_utc; DROP INDEX doubtful_state_of_track; DROP VIEW v_detections; "
+           "DROP VIEW v_track_evidence; ALTER TABLE detection DROP COLUMN decision; "
+           "ALTER TABLE track_evidence DROP COLUMN decision; DROP TABLE rejected_proposal; "
+           "ALTER TABLE run DROP COLUMN started_fraction_us; ALTER TABLE run DROP COLUMN source_digest; PRAGMA "
+           "user_version = 20");
     ProjectFile project = ProjectFile::open(path_);
     EXPECT_EQ(schema::numberOf(project.database()), schema::currentNumber());
     EXPECT_EQ(videoStartOf(project, 1), std::nullopt);

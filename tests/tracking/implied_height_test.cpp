@@ -10,7 +10,7 @@
 namespace eyrie::implied_height_test {
 namespace {
 
-constexpr SceneScale kScale{.gsd_m_per_px = 0.2, .frame_rate_hz = 25, .gsd_known = true};
+const SceneScale kScale{.gsd_m_per_px = 0.2, .frame_rate_hz = 25, .gsd_known = true};
 const cv::Size kImage(1000, 600);
 constexpr int kFrames = 60;
 constexpr double kFlightHeight = 60;  // m

@@ -8,7 +8,7 @@
 namespace eyrie::live_scores_test {
 namespace {
 
-constexpr SceneScale kLiveScale{.gsd_m_per_px = 0.2, .frame_rate_hz = 25, .gsd_known = true};
+const SceneScale kLiveScale{.gsd_m_per_px = 0.2, .frame_rate_hz = 25, .gsd_known = true};
 constexpr int kLiveFrames = 70;
 
 /// A car that turns, under a camera that flies on, turns and zooms; seen like a vehicle in every third frame, lost now

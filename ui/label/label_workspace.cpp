@@ -320,8 +320,8 @@ void LabelWorkspace::labelsChanged() {
 void LabelWorkspace::showScene() {
     if (!active_) return;
     // Boxes belong to the picture that is shown, which may come later than the frame was asked for.
-    tool_->setScene(labelScene(*labels_, *proposals_, around_.session.viewFrame().index, around_.session.scale(),
-                               identity_->shownEdit()));
+    tool_->setScene(labelScene(*labels_, *proposals_, around_.session.viewFrame().index,
+                               around_.session.scale().in(around_.session.viewFrame().index), identity_->shownEdit()));
 }
 
 void LabelWorkspace::showList() {
@@ -345,7 +345,8 @@ void LabelWorkspace::showObject() {
     if (editor_->object() == nullptr)
         inspector_->showObject(std::nullopt);
     else
-        inspector_->showObject(objectDetails(*labels_, *editor_, around_.session.scale()));
+        inspector_->showObject(
+            objectDetails(*labels_, *editor_, around_.session.scale().in(around_.session.viewFrame().index)));
 }
 
 void LabelWorkspace::enableActions() {

@@ -436,7 +436,7 @@ void ProjectSession::liveFrameCame() {
     current_frame_ = frame->index;
     emit changed(SessionChange::frame);
     view_frame_ = std::move(*frame);
-    view_frame_.scale = scale();
+    view_frame_.scale = scale().zoomed(view_frame_.result ? view_frame_.result->motion.registration.zoom : 1);
     emit changed(SessionChange::picture);
 }
 

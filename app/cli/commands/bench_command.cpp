@@ -21,7 +21,7 @@
 #include "cli/reports/preview_times.h"
 #include "cli/reports/sweep_times.h"
 #include "core/error.h"
-#include "core/values/stopwatch.h"
+#include "core/stopwatch.h"
 #include "store/project/project_file.h"
 #include "store/runs/result_writer.h"
 

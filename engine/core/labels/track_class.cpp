@@ -90,8 +90,8 @@ void nameClasses(BoxesByFrame& tracks, const SceneScale& scale, const TrackClass
         for (const BoxRecord& record : records) {
             if (!record.id) continue;
             TrackExtent& sum = sums[*record.id];
-            // In pixels of the middle of the picture.
-            const double factor = scale.slope.factorAt(record.box.centre);
+            // In pixels of the middle of the first picture.
+            const double factor = scale.enlargementAt(frame, record.box.centre);
             sum.length_px += record.box.length / factor;
             sum.width_px += record.box.width / factor;
             sum.speed_px += std::hypot(record.velocity.x, record.velocity.y) / factor;

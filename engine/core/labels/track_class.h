@@ -48,7 +48,8 @@ struct TrackExtent {
 /// look like that. Limits of size are a fifth lower where the GSD was estimated.
 TrackClass classOf(const TrackExtent& extent, const SceneScale& scale, const TrackClassOptions& options);
 
-/// Writes the class of every track, by all of its boxes, into its boxes. Boxes without id keep theirs.
+/// Writes the class of every track, by all of its boxes, into its boxes. Boxes without id keep theirs. `scale`: with
+/// the zoom of all frames.
 void nameClasses(BoxesByFrame& tracks, const SceneScale& scale, const TrackClassOptions& options);
 
 }  // namespace eyrie

@@ -32,6 +32,7 @@ struct Registration {
     RegistrationState state = RegistrationState::first;
     Homography current_from_previous;  ///< a prediction (state failed), the identity (first, frozen) or the estimate
     RegistrationFailure failure{};     ///< why not, in state failed
+    double zoom = 1;  ///< pixels per metre as a multiple of those of the first frame, as the camera has zoomed since
 
     bool reliable() const { return state == RegistrationState::registered || state == RegistrationState::frozen; }
 };

@@ -18,6 +18,7 @@ struct MotionRoi {
     int cluster = -1;                  ///< index of the motion cluster in the frame
     cv::Point2d velocity{0, 0};        ///< px/frame relative to the ground
     std::vector<cv::Point2f> vectors;  ///< the cluster's own motion vectors (or moving points) in ROI coordinates
+    double zoom = 1;                   ///< of the frame; see Registration::zoom
     int stack_layers = 0;              ///< height of the image stack the pixels come from; 0: the raw image
 };
 

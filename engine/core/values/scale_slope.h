@@ -32,6 +32,8 @@ struct ScaleSlope {
         const double factor = factorAt(place);
         return {right_per_px / factor, down_per_px / factor, place.x, place.y};
     }
+    /// The same slope when the camera shows everything larger by this factor.
+    ScaleSlope zoomed(double by) const { return {right_per_px / by, down_per_px / by, centre_x, centre_y}; }
     /// Pixels per metre at a place as a multiple of those at the centre; exactly 1 everywhere where it is flat.
     double factorAt(cv::Point2d place) const {
         if (isFlat()) return 1;

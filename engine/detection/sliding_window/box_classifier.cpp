@@ -46,10 +46,10 @@ BoxClassifier::BoxClassifier(VehicleModel model, const SlidingWindowOptions& opt
       scale_(scale),
       every_(std::max(1, static_cast<int>(std::lround(scale.frame_rate_hz / kLooksPerSecond)))) {}
 
-double BoxClassifier::at(const cv::Mat& gray, const OrientedBox& box) const {
+double BoxClassifier::at(const cv::Mat& gray, const OrientedBox& box, double zoom) const {
     const cv::Point centre(cvRound(box.centre.x), cvRound(box.centre.y));
     if (!cv::Rect({0, 0}, gray.size()).contains(centre)) return std::numeric_limits<double>::quiet_NaN();
-    const SceneScale here = scale_.at(box.centre);
+    const SceneScale here = scale_.zoomed(zoom).at(box.centre);
     const double length = between(box.length, here.px(options_.car_length_m), kShortest, kLongest);
     const double width = between(box.width, here.px(options_.car_width_m), kNarrowest, kWidest);
     const WindowFit& fit = scanner_.model().fit;
@@ -70,12 +70,12 @@ double BoxClassifier::at(const cv::Mat& gray, const OrientedBox& box) const {
     return highest;
 }
 
-void BoxClassifier::judge(std::vector<Detection>& detections, const Frame& frame) const {
+void BoxClassifier::judge(std::vector<Detection>& detections, const Frame& frame, double zoom) const {
     if (!looksAt(frame.index)) return;
     cv::parallel_for_(cv::Range(0, static_cast<int>(detections.size())), [&](const cv::Range& range) {
         for (int i = range.start; i < range.end; ++i) {
             Detection& detection = detections[static_cast<std::size_t>(i)];
-            if (detection.rejection == Rejection::none) detection.decision = at(frame.gray, detection.box);
+            if (detection.rejection == Rejection::none) detection.decision = at(frame.gray, detection.box, zoom);
         }
     });
 }

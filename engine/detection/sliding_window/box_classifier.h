@@ -20,13 +20,14 @@ class BoxClassifier {
 
     /// The highest decision value of a window that is laid over the box in a CV_8UC1 image, 0 being the classifier's
     /// border. The window is fitted to a size between that of the box and that of a car; it is moved by a sixth of it
-    /// and made longer and shorter by a third. NaN where the box's centre lies beyond the image.
-    double at(const cv::Mat& gray, const OrientedBox& box) const;
+    /// and made longer and shorter by a third. NaN where the box's centre lies beyond the image. `zoom`: that of the
+    /// frame, Registration::zoom.
+    double at(const cv::Mat& gray, const OrientedBox& box, double zoom = 1) const;
 
     /// Whether it looks at this frame: at some four a second.
     bool looksAt(FrameIndex frame) const { return frame % every_ == 0; }
     /// Gives the detections that were kept their decision, in frames that it looks at.
-    void judge(std::vector<Detection>& detections, const Frame& frame) const;
+    void judge(std::vector<Detection>& detections, const Frame& frame, double zoom) const;
 
  private:
     WindowScanner scanner_;

@@ -19,7 +19,7 @@ GroundStretches::GroundStretches(const Footage& footage) : footage_(footage) {
         std::optional<Homography> to_reference;
         if (connected) to_reference = footage.camera.map(frame, stretches_.back().first_frame);
         if (!to_reference || !isSoundMap(to_reference->matrix, footage.image_size, kMostUnlike)) {
-            GroundStretch next{frame, frame, footage.scale.gsd_m_per_px, !connected, true};
+            GroundStretch next{frame, frame, footage.scale.in(frame).gsd_m_per_px, !connected, true};
             if (connected) {
                 const GroundStretch& before = stretches_.back();
                 next.metres_per_px =
@@ -70,12 +70,12 @@ double GroundStretches::metresPerPixel(FrameIndex frame, cv::Point2d image) cons
 
 double GroundStretches::metresByPlace(FrameIndex frame, cv::Point2d image) const {
     const SceneScale& scale = footage_.scale;
-    return scale.slope.isFlat() ? 1 : scale.at(image).gsd_m_per_px / metresPerPixel(frame, image);
+    return scale.slope.isFlat() ? 1 : scale.at(frame, image).gsd_m_per_px / metresPerPixel(frame, image);
 }
 
 double GroundStretches::metresHere(FrameIndex frame, cv::Point2d image) const {
     const SceneScale& scale = footage_.scale;
-    return scale.slope.isFlat() ? metresPerPixel(frame, image) : scale.at(image).gsd_m_per_px;
+    return scale.slope.isFlat() ? metresPerPixel(frame, image) : scale.at(frame, image).gsd_m_per_px;
 }
 
 bool GroundStretches::inImage(cv::Point2d image) const {

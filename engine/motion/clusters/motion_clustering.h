@@ -36,7 +36,8 @@ struct MotionClusteringOptions {
     void describe(ParameterVisitor& visitor);
 };
 
-/// Groups motion vectors that lie close and move alike. Stateless.
+/// Groups motion vectors that lie close and move alike. Stateless. Where the camera zooms, one of the scale of the
+/// frame is needed: SceneScale::zoomed().
 class MotionClustering {
  public:
     MotionClustering(const MotionClusteringOptions& options, const SceneScale& scale);

@@ -71,13 +71,16 @@ std::vector<std::vector<cv::Point>> areasOf(const cv::Mat& binary) {
 }  // namespace
 
 DifferenceMotion::DifferenceMotion(const DifferenceOptions& options, const SceneScale& scale)
-    : options_(options),
-      scale_(scale),
-      opening_(elementOf(scale.px(options.opening_m))),
-      closing_(elementOf(scale.px(options.closing_m))),
-      frames_(depthOf(options)) {
+    : options_(options), first_scale_(scale), frames_(depthOf(options)) {
+    zoomTo(1);
     if (options.method == MotionMethod::vectors)
         throw Error(ErrorKind::internal, "clustering of motion vectors needs no difference images");
+}
+
+void DifferenceMotion::zoomTo(double zoom) {
+    scale_ = first_scale_.zoomed(zoom);
+    opening_ = elementOf(scale_.px(options_.opening_m));
+    closing_ = elementOf(scale_.px(options_.closing_m));
 }
 
 DifferenceImage DifferenceMotion::compare() const {
@@ -184,6 +187,7 @@ DifferenceResult DifferenceMotion::next(const Frame& frame, const FrameMotion& m
     if (frame.gray.empty() || frame.gray.type() != CV_8UC1)
         throw Error(ErrorKind::internal,
                     "frame " + std::to_string(frame.index) + " has no 8 bit grey image to compare");
+    zoomTo(motion.registration.zoom);
     const bool added = frames_.add(frame, motion.registration);
     if (!added && motion.registration.state == RegistrationState::frozen) return last_;
     DifferenceResult result;

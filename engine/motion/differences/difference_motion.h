@@ -41,6 +41,8 @@ class DifferenceMotion {
     void transfer(Archive& archive);
 
  private:
+    /// Sets what follows from the scale in a frame.
+    void zoomTo(double zoom);
     DifferenceImage compare() const;
     void findClusters(const FrameMotion& motion, DifferenceResult& result) const;
     /// Frames between the picture that the areas belong to and the newest one.
@@ -49,7 +51,8 @@ class DifferenceMotion {
     bool isGhost(const std::vector<cv::Point>& pixels, const cv::Mat& gradient) const;
 
     DifferenceOptions options_;
-    SceneScale scale_;
+    SceneScale first_scale_;  ///< of the first frame
+    SceneScale scale_;        ///< of the frame in hand
     cv::Mat opening_;
     cv::Mat closing_;
     RegisteredFrames frames_;

@@ -57,6 +57,8 @@ class MovingAreas {
     /// where `graphics` are drawn into the pictures.
     void add(const Frame& frame, const Registration& registration, const PictureMask& graphics = {});
     void clear() { frames_.clear(); }
+    /// Sets the scale of the frames from now on; the frame rate stays.
+    void setScale(const SceneScale& scale) { scale_ = scale; }
     /// Vectors in the areas of the newest frame, with ids above those of all corners and silhouettes, and of age 0;
     /// none where corners suffice. `motion` is what is known of the frame already. `min_speed`: px/frame at a place.
     std::vector<MotionVector> infer(const FrameMotion& motion, const std::function<double(cv::Point2d)>& min_speed);

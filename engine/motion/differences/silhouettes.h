@@ -37,6 +37,8 @@ class Silhouettes {
     /// Takes the next frame, failed and repeated ones, too; without a picture everything is forgotten.
     void add(const Frame& frame, const Registration& registration);
     void clear() { frames_.clear(); }
+    /// Sets the scale of the frames from now on; the frame rate stays.
+    void setScale(const SceneScale& scale) { scale_ = scale; }
     /// Vectors on the outlines of the silhouettes in the newest frame, with ids above those of all corners and of age
     /// 0. `vectors` are those of corners, `chosen` the indices of those that lie on vehicles, the deviation of the
     /// background's speed is in px/frame.

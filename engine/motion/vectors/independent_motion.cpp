@@ -28,6 +28,7 @@ double length(cv::Point2d v) {
 
 IndependentMotion::IndependentMotion(const IndependentMotionOptions& options, const SceneScale& scale)
     : options_(options.atRate(scale.frame_rate_hz)),
+      first_scale_(scale),
       scale_(scale),
       everywhere_(limitsUnder(scale)),
       shadow_test_(options.shadow, scale),
@@ -39,6 +40,18 @@ IndependentMotion::IndependentMotion(const IndependentMotionOptions& options, co
       history_(std::max(options_.baseline, options.find_slow ? options.slow_baseline : 0)) {
     options_.baseline = std::max(options_.baseline, options_.min_age);
     if (options_.baseline > history_.depth()) history_ = CornerHistory(options_.baseline);
+}
+
+void IndependentMotion::zoomTo(double zoom) {
+    if (zoom == zoom_) return;
+    zoom_ = zoom;
+    scale_ = first_scale_.zoomed(zoom);
+    everywhere_ = limitsUnder(scale_);
+    shadow_test_ = ShadowTest(options_.shadow, scale_);
+    shadow_owners_ = ShadowOwners(options_.shadow, scale_);
+    local_background_ = LocalBackground(options_.local_background, scale_);
+    silhouettes_.setScale(scale_);
+    areas_.setScale(scale_);
 }
 
 void IndependentMotion::reset() {
@@ -309,6 +322,7 @@ bool IndependentMotion::follow(const RegisteredFrame& registered) {
 }
 
 void IndependentMotion::remember(const RegisteredFrame& registered, const Frame& frame) {
+    zoomTo(registered.registration.zoom);
     silhouettes_.add(frame, registered.registration);
     areas_.add(frame, registered.registration, registered.graphics);
     const RegistrationState state = registered.registration.state;
@@ -328,6 +342,7 @@ FrameMotion IndependentMotion::next(const RegisteredFrame& registered, const Fra
     motion.corner_count = static_cast<int>(registered.corners.size());
     motion.graphics = registered.graphics;
 
+    zoomTo(registered.registration.zoom);
     silhouettes_.add(frame, registered.registration);
     areas_.add(frame, registered.registration, registered.graphics);
     const RegistrationState state = registered.registration.state;

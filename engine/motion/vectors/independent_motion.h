@@ -53,6 +53,8 @@ class IndependentMotion {
         int baseline = 0;  ///< frames; 0: too young
         cv::Point2d velocity{0, 0};
     };
+    /// Sets what follows from the scale in a frame.
+    void zoomTo(double zoom);
     void restart();
     bool follow(const RegisteredFrame& registered);
     bool extendPaths(const Registration& registration);
@@ -81,7 +83,9 @@ class IndependentMotion {
                             const BackgroundNoise& noise, double noise_here) const;
 
     IndependentMotionOptions options_;
-    SceneScale scale_;
+    SceneScale first_scale_;  ///< of the first frame
+    double zoom_ = 1;         ///< of the frame in hand
+    SceneScale scale_;        ///< likewise
     SpeedLimits everywhere_;  ///< where the scale is the same everywhere
     ShadowTest shadow_test_;
     ShadowOwners shadow_owners_;

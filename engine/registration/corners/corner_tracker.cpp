@@ -220,9 +220,13 @@ void TrackingOptions::describe(ParameterVisitor& visitor) {
 }
 
 CornerTracker::CornerTracker(const TrackingOptions& options, const SceneScale& scale)
-    : options_(options),
-      window_(oddWindow(scale.px(options.window_m))),
-      max_step_px_(std::max(4.0, scale.pxPerFrame(options.max_speed_m_s))) {}
+    : options_(options), window_(oddWindow(scale.px(options.window_m))) {
+    setFastest(scale);
+}
+
+void CornerTracker::setFastest(const SceneScale& scale) {
+    max_step_px_ = std::max(4.0, scale.pxPerFrame(options_.max_speed_m_s));
+}
 
 void CornerTracker::add(CornerSet& set, const std::vector<cv::Point2f>& positions, const PaddedPicture& picture,
                         CornerId& next_id) const {

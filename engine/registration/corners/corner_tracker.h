@@ -43,6 +43,9 @@ class CornerTracker {
  public:
     CornerTracker(const TrackingOptions& options, const SceneScale& scale);
 
+    /// Sets how far anything may move in a frame; the window stays as it is, since patches are of its size.
+    void setFastest(const SceneScale& scale);
+
     /// Side of the window, px; odd.
     int window() const { return window_; }
     /// px that a new corner must keep from the border.
@@ -71,7 +74,7 @@ class CornerTracker {
  private:
     TrackingOptions options_;
     int window_;
-    double max_step_px_;  ///< farthest that anything moves over the ground in one frame
+    double max_step_px_ = 0;  ///< farthest that anything moves over the ground in one frame
 };
 
 }  // namespace eyrie

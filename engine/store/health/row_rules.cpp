@@ -163,7 +163,8 @@ std::vector<RowRule> rowRules() {
     const std::string in_video = "frame BETWEEN 0 AND " + std::to_string(kLastFrame);
     const std::string range = "first_frame" + frames + " AND last_frame" + frames;
     // Labels may end where nothing ends: there the video's length was unknown.
-    static_assert(kFinestGsd == 1e-4 && kCoarsestGsd == 1e4);  // written out below: no locale may turn their points
+    // Written out below: no locale may turn their points.
+    static_assert(kFinestGsd == 1e-4 && kCoarsestGsd == 1e4 && kLeastZoom == 1e-2 && kMostZoom == 1e2);
     const std::string life = "first_frame >= 0 AND last_frame >= first_frame";
     return {
         {"sequence",
@@ -207,6 +208,7 @@ std::vector<RowRule> rowRules() {
          frame + " AND " + isOneOf("status", stored::kTrackStatuses) + " AND " +
              isOneOf("origin", stored::kStateOrigins),
          "state of a track is impossible"},
+        {"frame", "zoom BETWEEN 1e-2 AND 1e2", "zoom of a frame is impossible", 29},
         {"frame", "details IN (0, 1)", "whether details of a frame were kept is no answer", 15},
         {"unfinished_frame", frame + " AND are_squeezed_vectors(vectors) AND are_squeezed_boxes(vehicles)",
          "what finishing needs of a frame cannot be read", 15},

@@ -65,4 +65,40 @@ FROM box_trim JOIN v_runs ON v_runs.run = box_trim.run_id;
 )sql");
 }
 
+// Registration::zoom of each frame, and metres and km/h of tracks by its mean over a track's life. Few runs have frames
+// that are zoomed; the index finds whether there are any.
+void addZoom(SQLite::Database& database) {
+    database.exec(R"sql(
+ALTER TABLE frame ADD COLUMN zoom REAL NOT NULL DEFAULT 1;
+CREATE INDEX zoomed_frame ON frame (run_id, frame, zoom) WHERE zoom <> 1;
+DROP VIEW IF EXISTS v_frames;
+CREATE VIEW v_frames AS
+SELECT frame.run_id AS run, frame.frame, frame.time_us / 1e6 AS seconds, frame.registration_state AS registration,
+    frame.reason, frame.picture, frame.corner_count AS corners, frame.motion_vector_count AS motion_vectors,
+    frame.detection_count AS detections, frame.track_count AS tracks, frame.details, frame.zoom
+FROM frame JOIN v_runs ON v_runs.run = frame.run_id;
+DROP VIEW IF EXISTS v_tracks;
+CREATE VIEW v_tracks AS
+SELECT run, track, first_frame, last_frame, frames, (last_frame - first_frame) / rate AS seconds,
+    length_px, width_px, speed_px_per_frame,
+    length_px * gsd / (factor * zoom) AS length_m, width_px * gsd / (factor * zoom) AS width_m,
+    speed_px_per_frame * gsd / (factor * zoom) * rate * 3.6 AS speed_kmh, factor AS scale_factor, zoom
+FROM (SELECT *,
+        CASE WHEN growth_right = 0 AND growth_down = 0 THEN 1.0 ELSE min(4.0, max(0.2,
+            1 + (growth_right * off_x + growth_down * off_y) / zoom)) END AS factor
+    FROM (SELECT track.run_id AS run, track.id AS track, track.first_frame, track.last_frame, track.frames,
+            track.length_sum / track.frames AS length_px, track.width_sum / track.frames AS width_px,
+            track.speed_sum / track.frames AS speed_px_per_frame,
+            run.frame_rate_hz AS rate, CASE WHEN run.gsd_known THEN run.gsd_m_per_px END AS gsd,
+            run.scale_growth_right AS growth_right, run.scale_growth_down AS growth_down,
+            track.x_sum / track.frames - (sequence.width - 1) / 2.0 AS off_x,
+            track.y_sum / track.frames - (sequence.height - 1) / 2.0 AS off_y,
+            1 + (SELECT total(frame.zoom - 1) FROM frame WHERE frame.run_id = track.run_id AND frame.zoom <> 1
+                AND frame.frame BETWEEN track.first_frame AND track.last_frame)
+                / (track.last_frame - track.first_frame + 1) AS zoom
+        FROM track JOIN run ON run.id = track.run_id JOIN sequence ON sequence.id = run.sequence_id
+        WHERE track.confirmed <> 0 AND run.removed_utc = ''));
+)sql");
+}
+
 }  // namespace eyrie::schema

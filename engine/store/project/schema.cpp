@@ -42,7 +42,8 @@ constexpr std::array kMigrations{addRuns,
                                  addRejectedProposals,
                                  addStartFractions,
                                  addSourceDigests,
-                                 addLight};
+                                 addLight,
+                                 addZoom};
 
 }  // namespace
 
@@ -65,7 +66,7 @@ WHERE reason <> '';
 }
 
 void tellScaleOrigins(SQLite::Database& database, const std::string& condition) {
-    static_assert(SceneScale().gsd_m_per_px == 0.25);
+    static_assert(kAssumedGsd == 0.25);
     database.exec(R"sql(
 UPDATE run SET
     scale_origin = CASE WHEN gsd_known THEN 'given' WHEN gsd_m_per_px = 0.25 THEN 'assumed' ELSE 'estimated' END,

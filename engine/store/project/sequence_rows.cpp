@@ -9,6 +9,12 @@
 
 namespace eyrie {
 
+double readZoom(RowReader& row) {
+    const double zoom = row.real();
+    if (!(zoom >= kLeastZoom && zoom <= kMostZoom)) throw MalformedRow{"an impossible zoom"};
+    return zoom;
+}
+
 FrameIndex readFrameNumber(RowReader& row) {
     const FrameIndex frame = row.integer();
     if (frame < 0 || frame > kLastFrame) throw MalformedRow{"a frame " + std::to_string(frame) + " that no video has"};

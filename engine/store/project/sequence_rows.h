@@ -11,6 +11,9 @@ class Database;
 
 namespace eyrie {
 
+/// Zooms of stored frames; beyond them no camera goes.
+inline constexpr double kLeastZoom = 1e-2;
+inline constexpr double kMostZoom = 1e2;
 /// Metres per pixel of a stored run; beyond them a vehicle has no size in whole pixels.
 inline constexpr double kFinestGsd = 1e-4;
 inline constexpr double kCoarsestGsd = 1e4;
@@ -20,6 +23,8 @@ inline constexpr double kMostUncertain = 1e9;
 class RowReader;
 /// The next column as the number of a frame. Throws MalformedRow for one that no video has.
 FrameIndex readFrameNumber(RowReader& row);
+/// Registration::zoom of a frame. Throws MalformedRow for one that no camera has.
+double readZoom(RowReader& row);
 
 /// Throws MalformedRow for a video that cannot be.
 void checkSequence(const SequenceRecord& sequence);

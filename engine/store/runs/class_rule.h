@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/parameter.h"
 #include "store/runs/run_store.h"
+#include "store/runs/track_scale.h"
 
 namespace eyrie {
 
@@ -13,7 +14,7 @@ struct ClassRule {
 
     TrackClass of(const TrackSummary& track) const {
         return classOf({track.frames, track.mean_length_px, track.mean_width_px, track.mean_speed_px},
-                       scale.at(track.place), limits);
+                       scaleOf(track, scale), limits);
     }
 };
 

@@ -99,6 +99,25 @@ RunRecord readRun(SQLite::Statement& statement, const std::filesystem::path& pro
     return run;
 }
 
+ZoomCourse readZoomCourse(SQLite::Database& database, int run_id) {
+    SQLite::Statement statement(database,
+                                "SELECT frame, zoom FROM frame WHERE run_id = ? AND zoom <> 1 ORDER BY frame");
+    statement.bind(1, run_id);
+    std::vector<ZoomCourse::Change> changes;
+    FrameIndex next = 0;
+    while (statement.executeStep()) {
+        RowReader row(statement);
+        const FrameIndex frame = readFrameNumber(row);
+        const double zoom = readZoom(row);
+        // In between it is 1.
+        if (!changes.empty() && frame != next) changes.emplace_back(next, 1);
+        if (changes.empty() || changes.back().second != zoom) changes.emplace_back(frame, zoom);
+        next = frame + 1;
+    }
+    if (!changes.empty()) changes.emplace_back(next, 1);
+    return ZoomCourse(std::move(changes));
+}
+
 /// Reads the runs that `where`, with ?1 = `run_id`, asks for.
 std::vector<RunRecord> readRuns(ProjectFile& project, const std::string& where, int run_id = 0) {
     SQLite::Statement statement(
@@ -113,13 +132,16 @@ std::vector<RunRecord> readRuns(ProjectFile& project, const std::string& where, 
     if (run_id > 0) statement.bind(1, run_id);
     std::vector<RunRecord> runs;
     while (statement.executeStep()) runs.push_back(readRun(statement, project.path()));
-    for (RunRecord& run : runs) run.light = readFindings(project.database(), run.id);
+    for (RunRecord& run : runs) {
+        run.light = readFindings(project.database(), run.id);
+        run.scale.zoom = readZoomCourse(project.database(), run.id);
+    }
     return runs;
 }
 
 constexpr const char* kRegistrationRows =
     "SELECT from_frame, to_frame, h00, h01, h02, h10, h11, h12, h20, h21, h22, inliers, rms_px, registration_state, "
-    "reason, picture, reason_count, reason_of FROM frame WHERE run_id = ? AND frame >= ? ORDER BY frame";
+    "reason, picture, reason_count, reason_of, zoom FROM frame WHERE run_id = ? AND frame >= ? ORDER BY frame";
 
 Homography homographyOf(RowReader& row) {
     Homography homography;
@@ -281,6 +303,7 @@ void RunStore::visitRegistrations(int run_id, const std::function<void(const Reg
             registration.current_from_previous = homographyOf(row);
             registration.state = row.word(stored::kRegistrationStates);
             registration.failure = row.failure();
+            registration.zoom = readZoom(row);
             visitor(registration);
         }
     });

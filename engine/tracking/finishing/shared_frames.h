@@ -10,7 +10,7 @@
 
 namespace eyrie {
 
-/// Calls `visit(a, b)` with where both are and how they move, for every frame that both tracks have, in order.
+/// Calls `visit(frame, a, b)` with where both are and how they move, for every frame that both tracks have, in order.
 template <typename Visit>
 void forSharedFrames(const TrackPath& a, const TrackPath& b, Visit visit) {
     auto at_a = a.states.begin();
@@ -21,7 +21,7 @@ void forSharedFrames(const TrackPath& a, const TrackPath& b, Visit visit) {
         } else if (at_b->first < at_a->first) {
             ++at_b;
         } else {
-            visit(movingOf(at_a->second), movingOf(at_b->second));
+            visit(at_a->first, movingOf(at_a->second), movingOf(at_b->second));
             ++at_a;
             ++at_b;
         }

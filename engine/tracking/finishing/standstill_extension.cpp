@@ -101,7 +101,8 @@ void extendToRest(std::vector<TrackPath>& paths, const GroundMotion& ground, int
         if (first.origin == StateOrigin::predicted) continue;
         const cv::Point2d found_at = first.box.centre;
         const auto start = startOf(path, ground, kFittedSeconds * scale.frame_rate_hz);
-        if (!start || !start->isFromRest(scale.at(found_at).pxPerFrame(kFastest)) || start->framesSinceRest() > frames)
+        if (!start || !start->isFromRest(scale.at(path.firstFrame(), found_at).pxPerFrame(kFastest)) ||
+            start->framesSinceRest() > frames)
             continue;
         std::vector<TimedPathState> extension;
         Homography from_first;

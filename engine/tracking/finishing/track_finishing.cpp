@@ -253,6 +253,13 @@ cv::Point2d middleOf(const TrackPath& path) {
     return sum / static_cast<double>(std::max<std::size_t>(path.states.size(), 1));
 }
 
+SceneScale scaleOf(const TrackPath& path, const SceneScale& scale) {
+    if (path.states.empty()) return scale.at(scale.slope.centre());
+    double zooms = 0;
+    for (const auto& [frame, state] : path.states) zooms += scale.zoom.at(frame);
+    return scale.zoomed(zooms / static_cast<double>(path.states.size())).at(middleOf(path));
+}
+
 void prepend(TrackPath& path, const std::vector<TimedPathState>& backwards) {
     // Not by insert, which would hold twice as much from then on.
     std::vector<TimedPathState> states;
@@ -337,7 +344,8 @@ void FinishedTracks::visitDropped(const StatesOfRun& states, const DropVisitor& 
 }
 
 FinishedTracks finishRun(const StatesOfRun& states, const GroundMotion& ground, const FinishingOptions& options,
-                         const SceneScale& scale, const FoundInFrames& found) {
+                         const SceneScale& first_scale, const FoundInFrames& found) {
+    const SceneScale scale = ground.zooming(first_scale);
     FinishedTracks finished;
     DropList& drops = finished.dropped;
     std::vector<TrackPath>& paths = finished.paths;
@@ -348,7 +356,7 @@ FinishedTracks finishRun(const StatesOfRun& states, const GroundMotion& ground, 
                           [](const TimedPathState& s) { return s.second.status == TrackStatus::tentative; });
         }
         if (options.trim_predicted)
-            trimPredictedEnd(path, ground, scale.at(middleOf(path)).pxPerFrame(options.stop_speed_m_s));
+            trimPredictedEnd(path, ground, scaleOf(path, scale).pxPerFrame(options.stop_speed_m_s));
     }
     std::erase_if(paths, [](const TrackPath& path) { return path.states.empty(); });
     dropGraphics(paths, found.graphics, drops);

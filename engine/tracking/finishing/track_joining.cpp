@@ -52,7 +52,7 @@ class Joiner {
         const auto expected = ground_.carried(movingOf(last->second), end, later.firstFrame(), true);
         if (!expected) return 0;
         const MovingState found = movingOf(later.states.front().second);
-        const SceneScale here = scale_.at(found.box.centre);
+        const SceneScale here = scale_.at(later.firstFrame(), found.box.centre);
         const double allowed = std::max(least_distance_, here.px(distance_m_));
         const double acceleration = here.pxPerFrame(kAcceleration) / here.frame_rate_hz;
 

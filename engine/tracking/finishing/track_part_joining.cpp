@@ -93,10 +93,10 @@ struct Together {
 
 Together togetherOf(const TrackPath& leader, const TrackPath& other, const SceneScale& everywhere) {
     Together together;
-    forSharedFrames(leader, other, [&](const MovingState& state, const MovingState& of_other) {
+    forSharedFrames(leader, other, [&](FrameIndex frame, const MovingState& state, const MovingState& of_other) {
         const OrientedBox& part = of_other.box;
         if (std::abs(axisTurnBetween(state.box.heading, part.heading)) > kMostTurn) return;
-        const double pixel = 1 / everywhere.at(part.centre).px(1);
+        const double pixel = 1 / everywhere.at(frame, part.centre).px(1);
         together.pixels.push_back(pixel);
         const cv::Point2d offset = state.box.toBox(part.centre);
         together.along.push_back(offset.x * pixel);
@@ -165,7 +165,7 @@ bool partThroughout(const TrackPath& path, const TrackPath& other, const SceneSc
     std::vector<double> beside, alone;  // m
     for (const auto& [frame, state] : path.states) {
         const OrientedBox box = state.box;
-        (other.at(frame) != nullptr ? beside : alone).push_back(box.length / everywhere.at(box.centre).px(1));
+        (other.at(frame) != nullptr ? beside : alone).push_back(box.length / everywhere.at(frame, box.centre).px(1));
     }
     return beside.empty() || alone.empty() || medianOf(alone) < kWholeAlone * medianOf(beside);
 }
@@ -175,20 +175,21 @@ void join(TrackPath& leader, const TrackPath& other, const Whole& whole, const S
     const bool other_throughout = partThroughout(other, leader, scale);
     std::vector<TimedPathState> joined;
     joined.reserve(leader.states.size() + other.states.size());
-    const auto grow = [&](PathState& state, const Growth& by) {
+    const auto grow = [&](TimedPathState& timed, const Growth& by) {
+        auto& [frame, state] = timed;
         const OrientedBox part = state.box;
-        state.box = by.applied(part, scale.at(part.centre).px(1));
+        state.box = by.applied(part, scale.at(frame, part.centre).px(1));
     };
     auto b = other.states.begin();
     const auto takeOther = [&] {
         joined.push_back(*b++);
-        if (other_throughout) grow(joined.back().second, whole.of_other);
+        if (other_throughout) grow(joined.back(), whole.of_other);
     };
     for (TimedPathState& state : leader.states) {
         while (b != other.states.end() && b->first < state.first) takeOther();
         const bool beside = b != other.states.end() && b->first == state.first;
         if (beside) ++b;
-        if (beside || leader_throughout) grow(state.second, whole.of_leader);
+        if (beside || leader_throughout) grow(state, whole.of_leader);
         joined.push_back(state);
     }
     while (b != other.states.end()) takeOther();

@@ -37,6 +37,8 @@ void visitByFrame(const std::vector<TrackPath>& paths, const PathVisitor& visito
 
 /// Where a track is on the whole: the mean of its boxes' centres. Of at least one state.
 cv::Point2d middleOf(const TrackPath& path);
+/// The scale there, under the mean of its frames' zooms.
+SceneScale scaleOf(const TrackPath& path, const SceneScale& scale);
 
 /// Puts earlier states, the latest first, before those of a path.
 void prepend(TrackPath& path, const std::vector<TimedPathState>& backwards);

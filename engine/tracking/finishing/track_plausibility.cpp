@@ -29,12 +29,12 @@ bool tooSmall(const TrackPath& path, double length, double width, const SceneSca
     std::vector<double> lengths;
     std::vector<double> widths;
     for (const auto& [frame, state] : path.states) {
-        const double factor = scale.slope.factorAt(state.box.centre);
-        lengths.push_back(state.box.length / factor);
-        widths.push_back(state.box.width / factor);
+        const SceneScale here = scale.at(frame, state.box.centre);
+        lengths.push_back(here.metres(state.box.length));
+        widths.push_back(here.metres(state.box.width));
     }
-    return quantileOf(std::move(lengths), kSizeQuantile) < scale.px(length) ||
-           quantileOf(std::move(widths), kSizeQuantile) < scale.px(width);
+    return quantileOf(std::move(lengths), kSizeQuantile) < length ||
+           quantileOf(std::move(widths), kSizeQuantile) < width;
 }
 
 /// How two tracks lie on each other in the frames they share.
@@ -52,14 +52,14 @@ double sharedBy(const OrientedBox& a, const OrientedBox& b, double widest) {
     return wider > widest ? overlap(a, b) : containment(a, b);
 }
 
-double widestAt(cv::Point2d place, const SceneScale& scale) {
-    return scale.at(place).px(kWidestVehicle) + kPlaceMargin;
+double widestIn(const SceneScale& here) {
+    return here.px(kWidestVehicle) + kPlaceMargin;
 }
 
 Sharing sharingOf(const TrackPath& a, const TrackPath& b, const SceneScale& scale) {
     Sharing sharing;
-    forSharedFrames(a, b, [&](const MovingState& one, const MovingState& other) {
-        const double widest = widestAt(one.box.centre, scale);
+    forSharedFrames(a, b, [&](FrameIndex frame, const MovingState& one, const MovingState& other) {
+        const double widest = widestIn(scale.at(frame, one.box.centre));
         sharing.share += sharedBy(one.box, other.box, widest);
         sharing.too_wide += std::max(one.box.width, other.box.width) > widest;
         const cv::Point2d offset = one.box.toBox(other.box.centre);
@@ -174,8 +174,7 @@ void dropSharers(std::vector<TrackPath>& paths, double max_sharing, const SceneS
             const Sharing sharing = sharingOf(stronger, weaker, scale);
             const auto shorter = static_cast<double>(std::min(stronger.states.size(), weaker.states.size()));
             if (sharing.frames < kFewestShared || sharing.frames < kSharedOfShorter * shorter) continue;
-            const bool fixed =
-                sharing.frames >= kFixedOfShorter * shorter && areFixed(sharing, scale.at(middleOf(weaker)));
+            const bool fixed = sharing.frames >= kFixedOfShorter * shorter && areFixed(sharing, scaleOf(weaker, scale));
             if (fixed && sharing.share > kFixedShare * max_sharing) {
                 drop(weaker, TrackDrop::shares_place, dropped, stronger.id);
                 continue;

@@ -29,7 +29,7 @@ struct Beside {
 
 Beside besideOf(const TrackPath& vehicle, const TrackPath& other) {
     Beside beside;
-    forSharedFrames(vehicle, other, [&](const MovingState& a, const MovingState& b) {
+    forSharedFrames(vehicle, other, [&](FrameIndex, const MovingState& a, const MovingState& b) {
         const cv::Point2d offset = a.box.toBox(b.box.centre);
         beside.along.push_back(offset.x);
         beside.across.push_back(offset.y);
@@ -47,7 +47,7 @@ bool drivesAsShadowOf(const TrackPath& shadow, const TrackPath& vehicle, const S
     const double seen = kDetected * vehicle.statesOf(StateOrigin::detected);
     if (shadow.statesOf(StateOrigin::detected) >= seen) return false;
     const Beside beside = besideOf(vehicle, shadow);
-    const SceneScale scale = everywhere.at(middleOf(shadow));
+    const SceneScale scale = scaleOf(shadow, everywhere);
     const auto frames = static_cast<double>(beside.along.size());
     if (frames < std::max(1.0, kShortest * scale.frame_rate_hz)) return false;
     if (frames < kOfShadow * static_cast<double>(shadow.states.size())) return false;

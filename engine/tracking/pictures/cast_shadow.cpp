@@ -98,7 +98,7 @@ std::pair<std::vector<ShadowSide>, int> sidesOf(const LooksOfStretch& looks, con
     for (const SilhouetteLook* look : looks) {
         if (!showsVehicle(*look)) continue;
         const GroundTurns::Turn& turn = turns.at(look->frame);
-        const double metre = scale.at(look->box.centre).px(1) * turn.enlargement;
+        const double metre = scale.at(turn.stretch, look->box.centre).px(1) * turn.enlargement;
         const BoxEdges& whole = look->silhouette->whole;
         const BoxEdges& lit = *look->silhouette->lit;
         const double heading = look->box.heading - turn.angle;
@@ -190,7 +190,7 @@ const CastShadow* shadowIn(const std::vector<CastShadow>& shadows, FrameIndex st
 
 cv::Point2d reachAt(const CastShadow& shadow, const GroundTurns::Turn& turn, cv::Point2d place,
                     const SceneScale& scale) {
-    const double metre = scale.at(place).px(1) * turn.enlargement;
+    const double metre = scale.at(turn.stretch, place).px(1) * turn.enlargement;
     const double c = std::cos(turn.angle) * metre;
     const double s = std::sin(turn.angle) * metre;
     return {c * shadow.reach_m.x - s * shadow.reach_m.y, s * shadow.reach_m.x + c * shadow.reach_m.y};

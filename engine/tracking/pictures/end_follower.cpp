@@ -48,7 +48,7 @@ EndFollower::EndFollower(const TimedPathState& from, int way, const cv::Mat& gra
       follower_(from.second.box, gray, followOptions(scale.frame_rate_hz)) {
     const cv::Point2d velocity = cv::Point2d(from.second.velocity) * way;
     follower_.startsWith(velocity);
-    const SceneScale here = scale.at(from.second.box.centre);
+    const SceneScale here = scale.at(from.first, from.second.box.centre);
     const double frames = std::max(kBrakingFewestFrames, std::round(kBrakingSeconds * here.frame_rate_hz));
     allowed_change_ = here.pxPerFrame(kHardestBraking) / here.frame_rate_hz * frames + kPlaceError / frames;
     window_ = static_cast<std::size_t>(frames);

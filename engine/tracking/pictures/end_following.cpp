@@ -88,7 +88,8 @@ class EndFollowing {
     bool inMidPicture(const TimedPathState& state) const { return !ground_.cutByBorder(state.second.box, state.first); }
     bool moves(const TimedPathState& state) const {
         const cv::Point2d velocity = state.second.velocity;
-        return std::hypot(velocity.x, velocity.y) >= scale_.at(state.second.box.centre).pxPerFrame(kSlowestFollowed);
+        return std::hypot(velocity.x, velocity.y) >=
+               scale_.at(state.first, state.second.box.centre).pxPerFrame(kSlowestFollowed);
     }
 
     void begin(std::size_t track, FrameIndex frame) {

@@ -103,8 +103,8 @@ RunLight toldShadows(const std::vector<StretchLight>& read, const GroundTurns& t
         if (finding.outcome != LightOutcome::shadows) continue;
         for (FrameIndex frame = finding.first_frame; frame <= finding.last_frame; ++frame) {
             const GroundTurns::Turn& turn = turns.at(frame);
-            light.frames.push_back(
-                {frame, wrapPi(finding.heading + turn.angle), scale.px(finding.reach_m) * turn.enlargement});
+            light.frames.push_back({frame, wrapPi(finding.heading + turn.angle),
+                                    scale.in(turn.stretch).px(finding.reach_m) * turn.enlargement});
         }
     }
     light.findings = joined(stretches);

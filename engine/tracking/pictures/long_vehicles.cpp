@@ -57,7 +57,7 @@ std::map<TrackId, LooksAtLength> looksByTrack(const std::vector<SilhouetteLook>&
         const bool shadow_known = shadowIn(shadows, turns.at(look.frame).stretch) != nullptr;
         if (shadow_known && !look.extent->lit) continue;
         const BoxEdges& edges = shadow_known ? *look.extent->lit : look.extent->whole;
-        const SceneScale here = scale.at(look.box.centre);
+        const SceneScale here = scale.at(look.frame, look.box.centre);
         of_track.cut += look.extent->cut ? 1 : 0;
         of_track.rear.push_back(here.metres(edges.rear));
         of_track.front.push_back(here.metres(edges.front));
@@ -169,7 +169,7 @@ bool isPartOf(const TrackPath& part, const TrackPath& whole, bool fixed, const S
         if (there == nullptr) continue;
         const OrientedBox box = there->second.box;
         const cv::Point2d place = box.toBox(state.box.centre);
-        const double ends = box.length / 2 + (fixed ? scale.at(box.centre).px(kBeyond) : 0);
+        const double ends = box.length / 2 + (fixed ? scale.at(frame, box.centre).px(kBeyond) : 0);
         const bool between_ends = std::abs(place.x) <= ends;
         ++shared;
         inside += between_ends && (fixed || std::abs(place.y) <= box.width / 2) ? 1 : 0;

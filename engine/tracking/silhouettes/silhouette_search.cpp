@@ -45,7 +45,7 @@ class SilhouetteSearch::Plan {
             if (score < kMaybeVehicle) continue;
             for (const TimedPathState* state : momentsOf(path)) {
                 const OrientedBox box = state->second.box;
-                const double metre = scale_.at(box.centre).px(1);
+                const double metre = scale_.at(state->first, box.centre).px(1);
                 Planned look{{path.id, score >= kSureVehicle, state->first, box, 0, 0, 0, {}, {}},
                              SilhouetteGrid(box, kMarginAbout * metre, std::max(0.5, kGridStep * metre)),
                              ExtentGrid(box, metre, parts_.contains(path.id)),
@@ -84,7 +84,7 @@ class SilhouetteSearch::Plan {
             const cv::Matx33d* step = ground_.step(frame - direction, frame, false);
             if (step == nullptr) return;
             there = *step * there;
-            if (frame % apart_ != 0 || !isBare(look.look.box, there, frame)) continue;
+            if (frame % apart_ != 0 || !isBare(look.look, there, frame)) continue;
             const TimedPathState* itself = path.at(frame);
             const bool is_far = itself == nullptr || !look.extents.mayReach(itself->second.box, there);
             const bool is_near = near < kGroundsASide;
@@ -95,9 +95,10 @@ class SilhouetteSearch::Plan {
     }
 
     /// Whether no track is near the place of a box, which the map takes into the frame.
-    bool isBare(const OrientedBox& box, const cv::Matx33d& map, FrameIndex frame) const {
+    bool isBare(const SilhouetteLook& look, const cv::Matx33d& map, FrameIndex frame) const {
+        const OrientedBox& box = look.box;
         const HomographyJacobian there(map, box.centre);
-        const double margin = 2 * kClear * scale_.at(box.centre).px(kMarginAbout);
+        const double margin = 2 * kClear * scale_.at(look.frame, box.centre).px(kMarginAbout);
         const OrientedBox place{there.point(), (box.length + margin) * there.scale(),
                                 (box.width + margin) * there.scale(), there.turned(box.heading)};
         return taken_.isBare(frame, place);

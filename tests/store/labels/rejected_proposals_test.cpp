@@ -3,6 +3,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 
+#include "store/older_schema.h"
 #include "store/project/schema.h"
 #include "store/runs/run_store.h"
 #include "store/samples.h"
@@ -53,8 +54,7 @@ TEST_F(RejectedProposals, ThereAreNoneInAProjectOfBefore) {
     {
         SQLite::Database database(path_.string(), SQLite::OPEN_READWRITE);
         database.exec(
-            "DROP VIEW v_light; DROP VIEW v_frame_shadows; DROP VIEW v_box_trims; DROP TABLE light_finding; DROP TABLE "
-            "frame_shadow; DROP TABLE box_trim; "
+            test::kBackToSchema27 +
             "DROP TABLE rejected_proposal; ALTER TABLE run DROP COLUMN started_fraction_us; ALTER TABLE run DROP "
             "COLUMN source_digest; PRAGMA user_version = 24");
     }

@@ -3,6 +3,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
 
+#include "store/older_schema.h"
 #include "store/project/schema.h"
 #include "store/samples.h"
 #include "support/temporary_folder.h"
@@ -21,10 +22,7 @@ TEST(SourceDigest, IsKeptOfEachRunAndUnknownOfThoseOfBefore) {
         EXPECT_EQ(sourceDigestOf(project, run + 1), "");
     }
     SQLite::Database(folder / "p.eyrie", SQLite::OPEN_READWRITE)
-        .exec(
-            "DROP VIEW v_light; DROP VIEW v_frame_shadows; DROP VIEW v_box_trims; DROP TABLE light_finding; DROP TABLE "
-            "frame_shadow; DROP TABLE box_trim; "
-            "ALTER TABLE run DROP COLUMN source_digest; PRAGMA user_version = 26");
+        .exec(test::kBackToSchema27 + "ALTER TABLE run DROP COLUMN source_digest; PRAGMA user_version = 26");
     ProjectFile project = ProjectFile::open(folder / "p.eyrie");
     EXPECT_EQ(schema::numberOf(project.database()), schema::currentNumber());
     EXPECT_EQ(sourceDigestOf(project, run), "");

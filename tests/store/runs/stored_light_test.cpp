@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/geometry/angle.h"
 #include "store/health/project_check.h"
+#include "store/older_schema.h"
 #include "store/project/schema.h"
 #include "store/runs/run_store.h"
 #include "store/samples.h"
@@ -120,9 +121,7 @@ TEST_F(StoredLightTest, OtherToolsReadItInDegrees) {
 
 TEST_F(StoredLightTest, IsNotKnownOfRunsOfBefore) {
     store(sampleLight());
-    change(
-        "DROP VIEW v_light; DROP VIEW v_frame_shadows; DROP VIEW v_box_trims; DROP TABLE light_finding; DROP TABLE "
-        "frame_shadow; DROP TABLE box_trim; PRAGMA user_version = 27");
+    change(test::kBackToSchema27);
     ProjectFile project = ProjectFile::open(path_);
     EXPECT_EQ(schema::numberOf(project.database()), schema::currentNumber());
     EXPECT_TRUE(RunStore(project).run(run_)->light.empty());

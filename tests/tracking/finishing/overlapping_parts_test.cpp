@@ -15,7 +15,7 @@ using test::Lane;
 using test::onEveryRoad;
 using test::shaking;
 
-constexpr SceneScale kEstimated{0.25, 25, false};
+const SceneScale kEstimated{0.25, 25, false};
 
 void expectOne(bool expected, const Lane& one, const Lane& other, const SceneScale& scale = kFourToAMetre,
                PartsOfVehicle wanted = PartsOfVehicle::overlapping) {

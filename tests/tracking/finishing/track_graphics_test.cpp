@@ -7,7 +7,7 @@
 namespace eyrie::track_graphics_test {
 namespace {
 
-constexpr SceneScale kScale{.gsd_m_per_px = 0.2, .frame_rate_hz = 25, .gsd_known = true};
+const SceneScale kScale{.gsd_m_per_px = 0.2, .frame_rate_hz = 25, .gsd_known = true};
 const cv::Size kImage(400, 300);
 constexpr int kFrames = 50;
 

@@ -28,7 +28,7 @@ TrackEvidence with(double TrackEvidence::*what, double value, TrackEvidence evid
     return evidence;
 }
 
-constexpr SceneScale kScale{.gsd_m_per_px = 0.2, .frame_rate_hz = 25, .gsd_known = true};
+const SceneScale kScale{.gsd_m_per_px = 0.2, .frame_rate_hz = 25, .gsd_known = true};
 constexpr int kFrames = 60;
 
 /// Under a camera whose ground goes 3 px/frame to the right: a car that overtakes it, and a cloud that hardly moves in

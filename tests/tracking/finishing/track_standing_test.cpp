@@ -7,7 +7,7 @@
 namespace eyrie::track_standing_test {
 namespace {
 
-constexpr SceneScale kScale{.gsd_m_per_px = 0.2, .frame_rate_hz = 25, .gsd_known = true};
+const SceneScale kScale{.gsd_m_per_px = 0.2, .frame_rate_hz = 25, .gsd_known = true};
 const cv::Size kImage(1000, 600);
 
 /// A camera that flies on over the ground, which so moves by `flow_px` a frame to the right through the picture.

@@ -9,7 +9,7 @@
 namespace eyrie::cast_shadow_limits_test {
 namespace {
 
-constexpr SceneScale kScale{0.2, 25, true};  // 5 px are 1 m
+const SceneScale kScale{0.2, 25, true};  // 5 px are 1 m
 
 /// The camera comes nearer by a factor a frame; it was not registered in frame 20.
 GroundTurns zooming(double factor, bool cut = false) {

@@ -10,7 +10,7 @@
 namespace eyrie::cast_shadow_test {
 namespace {
 
-constexpr SceneScale kScale{0.2, 25, true};  // 5 px are 1 m
+const SceneScale kScale{0.2, 25, true};  // 5 px are 1 m
 constexpr double kPxPerMetre = 5;
 
 /// The camera turns by `turn` radians a frame about the middle of the picture.

@@ -11,7 +11,7 @@
 namespace eyrie::end_following_test {
 namespace {
 
-constexpr SceneScale kScale{.gsd_m_per_px = 0.2, .frame_rate_hz = 25, .gsd_known = true};
+const SceneScale kScale{.gsd_m_per_px = 0.2, .frame_rate_hz = 25, .gsd_known = true};
 constexpr int kFrames = 60;
 constexpr int kFound = 20;  ///< frame in which the tracker finds the car …
 constexpr int kLost = 40;   ///< … and the last in which it follows it
@@ -124,7 +124,7 @@ TEST(EndFollowing, atMostAsLongAsAskedFor) {
 
 // 10 frames a second; it turns right by half a right angle, nears, and is twice as large in the end.
 TEST(EndFollowing, aVehicleThatNearsRoundABendIsFollowedByItsCornersAndGrowsWithThem) {
-    constexpr SceneScale slow{.gsd_m_per_px = 0.1, .frame_rate_hz = 10, .gsd_known = true};
+    const SceneScale slow{.gsd_m_per_px = 0.1, .frame_rate_hz = 10, .gsd_known = true};
     constexpr int last = 40;
     std::vector<OrientedBox> boxes;
     cv::Point2d place(120, 90);

@@ -14,7 +14,7 @@ namespace eyrie::test {
 /// A patterned car on patterned ground under a camera at rest, 5 px a metre, and what a tracker knows of it.
 struct FilmedDrive {
     static inline const cv::Size kSize{640, 200};
-    static constexpr SceneScale kScale{.gsd_m_per_px = 0.2, .frame_rate_hz = 25, .gsd_known = true};
+    static inline const SceneScale kScale{.gsd_m_per_px = 0.2, .frame_rate_hz = 25, .gsd_known = true};
 
     int frames = 60;
     double speed = 4;                                                                    ///< px/frame, to the right

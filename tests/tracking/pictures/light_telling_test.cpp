@@ -10,7 +10,7 @@
 namespace eyrie::light_telling_test {
 namespace {
 
-constexpr SceneScale kScale{0.2, 25, true};  // 5 px are 1 m
+const SceneScale kScale{0.2, 25, true};  // 5 px are 1 m
 
 /// A camera that turns by `turn` a frame and was not registered in some frames.
 GroundTurns turning(double turn, std::vector<FrameIndex> cuts = {}) {

@@ -8,7 +8,7 @@
 namespace eyrie::long_vehicles_test {
 namespace {
 
-constexpr SceneScale kScale{0.2, 25, true};  // 5 px are 1 m
+const SceneScale kScale{0.2, 25, true};  // 5 px are 1 m
 constexpr double kMetre = 5;
 
 TrackPath pathOf(TrackId id, int frames, cv::Point2d centre = {100, 60}, FrameIndex first = 0) {

@@ -9,7 +9,7 @@
 namespace eyrie::shadow_tracks_test {
 namespace {
 
-constexpr SceneScale kScale{0.2, 25, true};  // 5 px are 1 m; 10 m/s are 2 px/frame
+const SceneScale kScale{0.2, 25, true};  // 5 px are 1 m; 10 m/s are 2 px/frame
 constexpr int kFrames = 50;
 
 /// A lorry of 40 × 13 px on its way along a heading, and what drives beside it.

@@ -9,7 +9,7 @@
 namespace eyrie::shadow_trimming_test {
 namespace {
 
-constexpr SceneScale kScale{0.2, 25, true};  // 5 px are 1 m
+const SceneScale kScale{0.2, 25, true};  // 5 px are 1 m
 const cv::Point2d kMiddle(320, 180);
 
 /// A resting camera, not registered in some frame.

@@ -10,7 +10,7 @@
 namespace eyrie::trimmed_boxes_test {
 namespace {
 
-constexpr SceneScale kScale{.gsd_m_per_px = 0.2, .frame_rate_hz = 25, .gsd_known = true};
+const SceneScale kScale{.gsd_m_per_px = 0.2, .frame_rate_hz = 25, .gsd_known = true};
 constexpr int kFrames = 50;
 constexpr int kShadowRight = 4;  // px
 constexpr int kShadowDown = 3;

@@ -11,7 +11,7 @@
 namespace eyrie::silhouette_search_test {
 namespace {
 
-constexpr SceneScale kScale{0.2, 25, true};  // 5 px are 1 m; every third frame is looked at
+const SceneScale kScale{0.2, 25, true};  // 5 px are 1 m; every third frame is looked at
 constexpr int kFrames = 121;
 
 /// Bright cars of 24 × 12 px on plain ground, which goes a number of px to the right each frame.

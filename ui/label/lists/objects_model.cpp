@@ -48,7 +48,7 @@ double ObjectsModel::secondsOf(const ObjectRow& row) const {
 }
 
 double ObjectsModel::shownSpeedOf(const ObjectRow& row) const {
-    return shownSpeed(row.speed_px, scale_.at(row.place));
+    return shownSpeed(row.speed_px, scale_.zoomed(scale_.zoom.meanOf(row.first_frame, row.last_frame)).at(row.place));
 }
 
 QVariant ObjectsModel::data(const QModelIndex& index, int role) const {

@@ -141,7 +141,7 @@ std::optional<double> eventSpeed(const FoundEvents& found, std::size_t position,
     const auto speeds = found.speedsAt(position);
     if (event == nullptr || !speeds) return std::nullopt;
     const SceneScale& scale = found.run->footage.scale;
-    const SceneScale here = scale.at(event->place);
+    const SceneScale here = scale.at(event->frame, event->place);
     return shownSpeed(here.pxPerFrame((*speeds).*which), here);
 }
 

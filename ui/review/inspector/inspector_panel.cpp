@@ -37,6 +37,13 @@ QString registrationText(const Registration& registration) {
         .arg(QLocale().toString(registration.current_from_previous.inliers));
 }
 
+/// "1.8 times as large as in the first frame", as the camera zooms.
+QString zoomText(double zoom) {
+    const QString times = numberText(zoom > 1 ? zoom : 1 / zoom, 2);
+    return zoom > 1 ? QObject::tr("%1 times as large as in the first frame").arg(times)
+                    : QObject::tr("%1 times as small as in the first frame").arg(times);
+}
+
 TrackClass classOfTrack(const ProjectSession& session, TrackId track) {
     const TrackSummary* summary = session.trackSummary(track);
     return summary != nullptr ? summary->track_class : TrackClass::unknown;
@@ -210,14 +217,19 @@ void InspectorPanel::showFacts() {
     const FrameResult& result = *frame.result;
     const bool details = session_.detailsKept(frame.index);
     const FrameSummary counts = details ? summaryOf(result) : *session_.frameSummary(frame.index);
-    setRows({{tr("Registration"), registrationText(result.motion.registration)},
-             {tr("Corners"), QLocale().toString(counts.corners)},
-             {tr("Motion vectors"), QLocale().toString(counts.motion_vectors)},
-             {tr("Clusters"), details ? QLocale().toString(static_cast<int>(result.clusters.size())) : notKept()},
-             {tr("Detections"), details ? tr("%1 of %2 kept").arg(counts.detections).arg(result.detections.size())
-                                        : QLocale().toString(counts.detections)},
-             {tr("Tracks"), QLocale().toString(counts.tracks)},
-             {tr("Shadows"), lightOf(session_, frame)}});
+    const Registration& registration = result.motion.registration;
+    QList<std::pair<QString, QString>> rows{
+        {tr("Registration"), registrationText(registration)},
+        {tr("Corners"), QLocale().toString(counts.corners)},
+        {tr("Motion vectors"), QLocale().toString(counts.motion_vectors)},
+        {tr("Clusters"), details ? QLocale().toString(static_cast<int>(result.clusters.size())) : notKept()},
+        {tr("Detections"), details ? tr("%1 of %2 kept").arg(counts.detections).arg(result.detections.size())
+                                   : QLocale().toString(counts.detections)},
+        {tr("Tracks"), QLocale().toString(counts.tracks)},
+        {tr("Shadows"), lightOf(session_, frame)}};
+    // Most cameras do not zoom.
+    if (registration.zoom != 1) rows.insert(1, {tr("Zoom"), zoomText(registration.zoom)});
+    setRows(rows);
 }
 
 void InspectorPanel::setRows(const QList<std::pair<QString, QString>>& rows) {

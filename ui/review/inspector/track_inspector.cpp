@@ -136,8 +136,8 @@ void TrackInspector::showWhole() {
     std::array<int, kStateOrigins> origins{};
     bool confirmed = false;
     for (const TrackFrame& state : states_) {
-        // In pixels of the middle of the picture, where they are to become metres of an oblique view.
-        const double factor = scale_.gsd_known ? scale_.slope.factorAt(state.state.box.centre) : 1;
+        // In pixels of the middle of the first picture, where they are to become metres.
+        const double factor = scale_.gsd_known ? scale_.enlargementAt(state.frame, state.state.box.centre) : 1;
         speed += speedOf(state.state) / factor / count;
         fastest = std::max(fastest, speedOf(state.state) / factor);
         length += state.state.box.length / factor / count;
@@ -185,7 +185,7 @@ void TrackInspector::showNow() {
     now_->setText(QString::fromLatin1(nameOf(state.status)) + QStringLiteral(", ") + shownName(state.origin));
     position_->setText(tr("%1, %2 px").arg(numberText(state.box.centre.x, 1), numberText(state.box.centre.y, 1)));
     showHeading(state.box);
-    const SceneScale here = scale_.at(state.box.centre);
+    const SceneScale here = scale_.at(frame_, state.box.centre);
     speed_now_->setText(speedText(speedOf(state), here));
     size_now_->setText(sizeText(state.box.length, state.box.width, here));
 }

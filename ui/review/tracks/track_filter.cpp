@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <string>
 
+#include "store/runs/track_scale.h"
 #include "widgets/display_text.h"
 
 namespace eyrie::ui {
@@ -219,12 +220,12 @@ TrackFilter TrackFilter::fromJson(const QJsonObject& json) {
 std::optional<double> valueOf(const TrackSummary& track, TrackQuality quality, const SceneScale& scale,
                               const TrackDoings& did) {
     const auto shown = [&](double metres_per_second) {
-        const SceneScale here = scale.at(track.place);
+        const SceneScale here = scaleOf(track, scale);
         return shownSpeed(here.pxPerFrame(metres_per_second), here);
     };
     switch (quality) {
         case TrackQuality::speed:
-            return shownSpeed(track.mean_speed_px, scale.at(track.place));
+            return shownSpeed(track.mean_speed_px, scaleOf(track, scale));
         case TrackQuality::lowest:
             return did.speeds ? std::optional(shown(did.speeds->lowest)) : std::nullopt;
         case TrackQuality::highest:
@@ -232,7 +233,7 @@ std::optional<double> valueOf(const TrackSummary& track, TrackQuality quality, c
         case TrackQuality::life:
             return scale.frame_rate_hz > 0 ? (track.last_frame - track.first_frame + 1) / scale.frame_rate_hz : 0;
         case TrackQuality::size:
-            return shownLength(track.mean_length_px, scale.at(track.place));
+            return shownLength(track.mean_length_px, scaleOf(track, scale));
         case TrackQuality::score:
             return track.score;
         default:

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "store/runs/track_scale.h"
 #include "widgets/display_text.h"
 #include "widgets/tables/table_roles.h"
 #include "widgets/theme_colours.h"
@@ -113,11 +114,11 @@ QString TracksModel::textOf(const TrackSummary& track, int column) const {
         case life_column:
             return numberText(secondsOf(track), 1);
         case speed_column:
-            return numberText(shownSpeed(track.mean_speed_px, scale_.at(track.place)), scale_.gsd_known ? 1 : 2);
+            return numberText(shownSpeed(track.mean_speed_px, scaleOf(track, scale_)), scale_.gsd_known ? 1 : 2);
         case length_column:
-            return numberText(shownLength(track.mean_length_px, scale_.at(track.place)), 1);
+            return numberText(shownLength(track.mean_length_px, scaleOf(track, scale_)), 1);
         case width_column:
-            return numberText(shownLength(track.mean_width_px, scale_.at(track.place)), 1);
+            return numberText(shownLength(track.mean_width_px, scaleOf(track, scale_)), 1);
         case status_column:
             if (track.corrected) return shownName(*track.corrected);
             return track.doubtful ? tr("left out") : track.confirmed ? tr("confirmed") : tr("tentative");
@@ -153,11 +154,11 @@ QVariant TracksModel::sortValueOf(const TrackSummary& track, int column) const {
             return track.last_frame - track.first_frame;
         // As they are shown: in an oblique view the same number of px is more in the distance.
         case speed_column:
-            return shownSpeed(track.mean_speed_px, scale_.at(track.place));
+            return shownSpeed(track.mean_speed_px, scaleOf(track, scale_));
         case length_column:
-            return shownLength(track.mean_length_px, scale_.at(track.place));
+            return shownLength(track.mean_length_px, scaleOf(track, scale_));
         case width_column:
-            return shownLength(track.mean_width_px, scale_.at(track.place));
+            return shownLength(track.mean_width_px, scaleOf(track, scale_));
         case score_column:
             return track.score;
         case like_column:

@@ -84,7 +84,7 @@ std::optional<GroundMeasure> MeasureTool::between(const FramePoint& from, const 
         if (const auto measure = measureBetween(ground_.ground()->stretches, from, to)) return measure;
     if (from.frame != to.frame) return std::nullopt;
     // Without a run the picture alone is measured.
-    return measureInFrame(session_.scale(), from.at, to.at);
+    return measureInFrame(session_.scale().in(from.frame), from.at, to.at);
 }
 
 QString MeasureTool::text() const {

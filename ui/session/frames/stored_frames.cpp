@@ -41,7 +41,7 @@ void StoredFrames::addTo(ViewFrame& frame) {
     frame.result = result(frame.index);
     if (!frame.result) return;
     if (frame.image.isNull()) frame.time_us = frame.result->motion.time_us;
-    frame.scale = scale_;
+    frame.scale = scale_.zoomed(frame.result->motion.registration.zoom);
     frame.doubtful = store_.doubtful().statesIn(run_id_, frame.index);
     frame.shadow = StoredLight(project_).shadowIn(run_id_, frame.index);
     frame.trails = trails(frame.index);

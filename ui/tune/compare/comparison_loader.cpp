@@ -29,7 +29,7 @@ struct SideFrames {
     void addTo(ViewFrame& frame) const {
         if (stored) stored->addTo(frame);
         if (computed) {
-            frame.scale = scale;
+            frame.scale = scale.in(frame.index);
             computed->addTo(frame);
         }
     }

@@ -150,7 +150,7 @@ void StatusFields::showCursor(std::optional<QPointF> image_point) {
     const QLocale locale;
     QString text =
         tr("%1, %2 px").arg(locale.toString(image_point->x(), 'f', 1), locale.toString(image_point->y(), 'f', 1));
-    const SceneScale scale = session_.scale();
+    const SceneScale scale = session_.scale().in(session_.viewFrame().index);
     // In an oblique view pixels do not add up to metres; how long one is there is told instead.
     if (scale.gsd_known && !scale.slope.isFlat())
         text += tr("   %1 m/px here")
