@@ -24,7 +24,7 @@ void transfer(Archive& archive, Registration& registration) {
     archive(registration.current_from_previous);
     archive.word(registration.failure.fault, RegistrationFault::impossible_motion);
     archive.word(registration.failure.picture, PictureQuality::blank);
-    archive(registration.failure.count, registration.failure.of, registration.zoom);
+    archive(registration.failure.count, registration.failure.of, registration.elapsed, registration.zoom);
 }
 
 template <class Archive>

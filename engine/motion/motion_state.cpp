@@ -31,9 +31,10 @@ void CornerHistory::transfer(Archive& archive) {
 
 template <class Archive>
 void RegisteredFrames::Picture::transfer(Archive& archive) {
-    archive(newest_from_it);
+    archive(newest_from_it, frames_ago);
     gray = archive.picture(newest_from_it.from_frame, gray);
     const double determinant = cv::determinant(newest_from_it.matrix);
+    archive.require(frames_ago >= 0, "a picture of the future");
     archive.require(std::isfinite(determinant) && determinant != 0, "a picture without a way to it");
 }
 

@@ -17,8 +17,17 @@ namespace {
 // A fit on which fewer agree is tried again with any perspective, and given up for one on which clearly more do.
 constexpr double kUnquestionedShare = 0.5;
 constexpr double kClearlyMore = 1.2;
-constexpr double kNearPx = 1;       ///< off the coarse registration, for a corner that surely agrees with it
-constexpr double kFarthestPx = 10;  ///< off the coarse registration, for a corner that was looked for around it
+constexpr double kNearPx = 1;          ///< off the coarse registration, for a corner that surely agrees with it
+constexpr double kFarthestPx = 10;     ///< off the coarse registration, for a corner that was looked for around it
+constexpr std::size_t kRecent = 8;     ///< motions that a camera's usual one is told by: single ones tremble
+constexpr double kTellingPx = 4;       ///< by which pictures differ where a camera goes on or not, to tell it by
+constexpr double kTellingMoverPx = 2;  ///< the same of what moves by itself, at …
+constexpr double kTellingSpeed = 0.7;  ///< … px/frame or more, …
+constexpr double kMoverPx = 1.5;       ///< … which is found this near to where it should be, …
+constexpr double kMoverShare = 0.15;   ///< … and by this share of its way, but nearer to it than to the other place
+constexpr int kFewestTelling = 8;      ///< such corners, to ask for missing pictures …
+constexpr int kMostMissing = 3;        ///< … in a row
+constexpr int kLongStall = 3;          ///< frozen frames; more are no rhythm of the video but a gap in it
 
 cv::Matx33d powerOf(const cv::Matx33d& m, int exponent) {
     cv::Matx33d result = cv::Matx33d::eye();
@@ -26,11 +35,56 @@ cv::Matx33d powerOf(const cv::Matx33d& m, int exponent) {
     return scaledToOne(result);
 }
 
+/// The farthest that any corner of a picture lies from where another map takes it, px.
+double apart(const cv::Matx33d& a, const cv::Matx33d& b, cv::Size image) {
+    double farthest = 0;
+    for (const float x : {0.0F, float(image.width - 1)}) {
+        for (const float y : {0.0F, float(image.height - 1)}) {
+            const cv::Point2d off = PointJacobian(a, {x, y}).point - PointJacobian(b, {x, y}).point;
+            farthest = std::max(farthest, std::hypot(off.x, off.y));
+        }
+    }
+    return farthest;
+}
+
 std::vector<cv::Point2f> positionsOf(const CornerSet& set) {
     std::vector<cv::Point2f> positions;
     positions.reserve(set.corners.size());
     for (const TrackedCorner& corner : set.corners) positions.push_back(corner.position);
     return positions;
+}
+
+/// What comes of the given motions on average, each a small one.
+cv::Matx33d meanOf(const std::deque<cv::Matx33d>& motions) {
+    cv::Matx33d whole = cv::Matx33d::eye();
+    for (const cv::Matx33d& motion : motions) whole = scaledToOne(motion * whole);
+    if (motions.empty()) return whole;
+    return cv::Matx33d::eye() + (whole - cv::Matx33d::eye()) * (1.0 / static_cast<double>(motions.size()));
+}
+
+/// Corners that moved by themselves before, fast enough to tell how many frames have passed.
+struct TellingMovers {
+    int all = 0;
+    int there = 0;  ///< found where they should be
+};
+
+/// `elapsed`: frames that are taken to have passed, not `other`.
+TellingMovers moversAfter(int elapsed, int other, const CornerSet& set, const std::vector<TrackedPosition>& found,
+                          const cv::Matx33d& to_from) {
+    TellingMovers movers;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const TrackedCorner& corner = set.corners[i];
+        const double way = std::hypot(corner.velocity.x, corner.velocity.y);
+        const double between = way * std::abs(other - elapsed);
+        if (!corner.moves || corner.sticks || way < kTellingSpeed || between < kTellingMoverPx) continue;
+        ++movers.all;
+        if (!found[i].found) continue;
+        const PointJacobian map(to_from, corner.position);
+        const cv::Point2f off = found[i].position - map.point - map.vector(corner.velocity) * float(elapsed);
+        const double near = std::min(kMoverPx + kMoverShare * way * elapsed, between / 2);
+        movers.there += std::hypot(off.x, off.y) < near ? 1 : 0;
+    }
+    return movers;
 }
 
 /// Of what is drawn into the picture no ground can be told.
@@ -63,6 +117,7 @@ void Registrar::reset() {
     zoom_.reset();
     zoomTo(1);
     motion_ = cv::Matx33d::eye();
+    recent_.clear();
     repeated_ = 0;
     usual_corners_ = 0;
 }
@@ -157,6 +212,17 @@ RegisteredFrame Registrar::repeatedFrame(const Frame& frame) {
     return result;
 }
 
+std::vector<int> Registrar::elapsedBy(const cv::Matx33d& motion, cv::Size image) const {
+    // Either the pictures in between were lost, or the video only paused.
+    const int most = repeated_ + 1;
+    const cv::Matx33d usual = meanOf(recent_);
+    const cv::Matx33d went_on = powerOf(usual, most);
+    if (apart(usual, went_on, image) >= kTellingPx)
+        return {apart(motion, went_on, image) < apart(motion, usual, image) ? most : 1};
+    // A camera at rest tells nothing. Single pictures are repeated to fill up a rate.
+    return repeated_ >= kLongStall ? std::vector{most, 1} : std::vector{1, most};
+}
+
 std::vector<cv::Matx33d> Registrar::predictionsFor(const Anchor& anchor) const {
     // After frozen frames the camera either went on meanwhile or stood still with them.
     std::vector<cv::Matx33d> predictions{scaledToOne(motion_ * anchor.latest_from_anchor)};
@@ -170,6 +236,34 @@ std::vector<cv::Matx33d> Registrar::predictionsFor(const Anchor& anchor) const {
                       predictions.end());
     if (predictions.empty()) predictions.push_back(cv::Matx33d::eye());
     return predictions;
+}
+
+void Registrar::trackMovers(const Anchor& anchor, const cv::Matx33d& start, double noise, Match& match) const {
+    int most_there = -1;
+    const auto attempt = [&](int elapsed, int other) {
+        std::vector<TrackedPosition> found =
+            tracker_.track(anchor.corners, anchor.pyramid, current_, start, noise, anchor.frames_ago + elapsed);
+        // What moves by itself is found where it has come to.
+        const int there = moversAfter(elapsed, other, anchor.corners, found, start).there;
+        if (there <= most_there) return;
+        most_there = there;
+        match.elapsed = elapsed;
+        match.positions = std::move(found);
+    };
+    if (repeated_ > 0 && anchor.frames_ago == 0) {
+        for (const int elapsed : elapsedBy(start, anchor.pyramid.size()))
+            attempt(elapsed, elapsed == 1 ? repeated_ + 1 : 1);
+        return;
+    }
+    attempt(1, 2);
+    if (anchor.frames_ago > 0) return;
+    // Where most of what moved is gone at once, pictures may be missing.
+    const int all = moversAfter(1, 2, anchor.corners, match.positions, start).all;
+    for (int elapsed = 2; elapsed <= kMostMissing + 1; ++elapsed) {
+        if (all < kFewestTelling || 2 * most_there >= all) return;
+        most_there = std::max(most_there, all / 4);
+        attempt(elapsed, elapsed - 1);
+    }
 }
 
 std::optional<Registrar::Match> Registrar::registerOnto(const Anchor& anchor, RegistrationFailure& failure,
@@ -192,7 +286,7 @@ std::optional<Registrar::Match> Registrar::registerOnto(const Anchor& anchor, Re
             return std::nullopt;
         }
         start = coarse->matrix;
-        match.positions = tracker_.track(anchor.corners, anchor.pyramid, current_, start, noise, anchor.frames_ago + 1);
+        trackMovers(anchor, start, noise, match);
     }
     const Stopwatch timer(times, Stage::homography);
     const Correspondences points =
@@ -234,6 +328,7 @@ RegisteredFrame Registrar::registeredFrame(const Frame& frame, Anchor anchor, co
     RegisteredFrame result;
     result.frame = frame.index;
     result.registration.state = RegistrationState::registered;
+    result.registration.elapsed = match.elapsed;
     Homography& homography = result.registration.current_from_previous;
     homography.from_frame = last_frame_;
     homography.to_frame = frame.index;
@@ -252,12 +347,16 @@ RegisteredFrame Registrar::registeredFrame(const Frame& frame, Anchor anchor, co
     }
     {
         const Stopwatch timer(times, Stage::tracking_corners);
-        tracker_.advance(anchor.corners, match.positions, match.fit, current_.smooth(), anchor.frames_ago + 1,
-                         std::max(1.0, 0.4 * detector_.spacing()));
+        tracker_.advance(anchor.corners, match.positions, match.fit, current_.smooth(),
+                         anchor.frames_ago + match.elapsed, std::max(1.0, 0.4 * detector_.spacing()));
         graphics_.add(current_, anchor.corners, homography.matrix);
         removeWhere(anchor.corners, graphics_.mask());
     }
-    if (anchor.frames_ago == 0 && repeated_ == 0) motion_ = match.fit.matrix;
+    if (anchor.frames_ago == 0 && repeated_ == 0 && match.elapsed == 1) {
+        motion_ = match.fit.matrix;
+        recent_.push_back(motion_);
+        if (recent_.size() > kRecent) recent_.pop_front();
+    }
     std::swap(anchor.pyramid, current_);
     anchor.noise = current_noise_;
     anchor.latest_from_anchor = cv::Matx33d::eye();
@@ -309,7 +408,10 @@ RegisteredFrame Registrar::failedFrame(const Frame& frame, RegistrationFailure f
             older_.reset();
         }
     }
-    if (!blank && !blurred) motion_ = cv::Matx33d::eye();
+    if (!blank && !blurred) {
+        motion_ = cv::Matx33d::eye();
+        recent_.clear();
+    }
     for (const TrackedCorner& corner : fresh.corners.corners) {
         result.corners.push_back({corner.id, corner.position, corner.position, 0, false});
     }

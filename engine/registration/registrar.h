@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
@@ -59,6 +60,7 @@ class Registrar {
     struct Match {
         HomographyFit fit;
         std::vector<TrackedPosition> positions;
+        int elapsed = 1;  ///< Registration::elapsed
     };
 
     RegisteredFrame firstFrame(const Frame& frame, StageTimes& times);
@@ -67,6 +69,11 @@ class Registrar {
     RegisteredFrame failedFrame(const Frame& frame, RegistrationFailure failure, StageTimes& times);
 
     std::optional<Match> registerOnto(const Anchor& anchor, RegistrationFailure& failure, StageTimes& times) const;
+    /// Over how many frames everything may have moved on to the picture in hand, after frozen ones; the likeliest
+    /// first, alone where the camera tells. `motion`: from the picture before.
+    std::vector<int> elapsedBy(const cv::Matx33d& motion, cv::Size image) const;
+    /// Follows the corners of a picture into the one in hand, and tells over how many frames they have moved on.
+    void trackMovers(const Anchor& anchor, const cv::Matx33d& start, double noise, Match& match) const;
     std::vector<cv::Matx33d> predictionsFor(const Anchor& anchor) const;
     void replenish(Anchor& anchor, StageTimes& times);
     /// Sets what follows from the scale when the camera has zoomed so far.
@@ -87,6 +94,7 @@ class Registrar {
     ImagePyramid current_;          ///< of the frame in hand
     double current_noise_ = 1;
     cv::Matx33d motion_ = cv::Matx33d::eye();  ///< last measured motion per frame
+    std::deque<cv::Matx33d> recent_;           ///< the last ones, newest last
     int repeated_ = 0;                         ///< frozen frames since the last real one
     double usual_corners_ = 0;                 ///< how many corners the video's pictures carry
     FrameIndex last_frame_ = 0;

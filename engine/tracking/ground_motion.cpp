@@ -55,7 +55,7 @@ void GroundMotion::add(const FrameMotionSummary& summary) {
     Step step;
     step.frame = summary.frame;
     step.image_size = summary.image_size;
-    step.frozen = summary.registration.state == RegistrationState::frozen;
+    step.elapsed = summary.registration.framesPassed();
     step.reliable = summary.registration.reliable();
     step.zoom = summary.registration.zoom;
     step.forward = summary.registration.current_from_previous.matrix;
@@ -92,9 +92,9 @@ const cv::Matx33d* GroundMotion::step(FrameIndex from, FrameIndex to, bool guess
     return to > from ? &step->forward : &step->backward;
 }
 
-bool GroundMotion::frozen(FrameIndex from, FrameIndex to) const {
+int GroundMotion::elapsed(FrameIndex from, FrameIndex to) const {
     const Step* step = stepInto(std::max(from, to));
-    return step != nullptr && step->frozen;
+    return step == nullptr ? 1 : step->elapsed;
 }
 
 std::optional<MovingState> GroundMotion::carried(MovingState state, FrameIndex from, FrameIndex to,
@@ -103,11 +103,11 @@ std::optional<MovingState> GroundMotion::carried(MovingState state, FrameIndex f
     for (FrameIndex frame = from; frame != to; frame += direction) {
         const cv::Matx33d* map = step(frame, frame + direction, guesses);
         if (!map) return std::nullopt;
-        const bool frozen = this->frozen(frame, frame + direction);
+        const int elapsed = this->elapsed(frame, frame + direction);
         // Forward: move, then map. Backward undoes that in the opposite order.
-        if (direction > 0 && !frozen) state.box = movedBy(state.box, state.velocity);
+        if (direction > 0 && elapsed > 0) state.box = movedBy(state.box, state.velocity * elapsed);
         state = mapped(state, *map);
-        if (direction < 0 && !frozen) state.box = movedBy(state.box, -state.velocity);
+        if (direction < 0 && elapsed > 0) state.box = movedBy(state.box, -state.velocity * elapsed);
         if (!isFinite(state)) return std::nullopt;
     }
     return state;

@@ -50,8 +50,9 @@ class GroundMotion {
     /// Carries a box by its own velocity to another frame; nothing when a step is missing. Nothing moves by itself in
     /// frozen frames.
     std::optional<MovingState> carried(MovingState state, FrameIndex from, FrameIndex to, bool guesses) const;
-    /// Whether the picture stayed the same between two adjacent frames: nothing moved by itself.
-    bool frozen(FrameIndex from, FrameIndex to) const;
+    /// Over how many frames things moved on by themselves between two adjacent ones: Registration::framesPassed() of
+    /// the later one.
+    int elapsed(FrameIndex from, FrameIndex to) const;
     /// Empty when the frame is unknown.
     cv::Size imageSize(FrameIndex frame) const;
     /// Whether less than the whole box lies in the image.
@@ -65,7 +66,7 @@ class GroundMotion {
         double zoom = 1;       ///< since the first frame of the run
         bool usable = false;
         bool reliable = false;
-        bool frozen = false;
+        int elapsed = 1;
         cv::Size image_size;
     };
     const Step* stepInto(FrameIndex frame) const;

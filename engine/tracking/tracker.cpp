@@ -128,8 +128,11 @@ void Tracker::predict(const FrameMotion& motion) {
     for (Track& track : tracks_) {
         const Homography& map = motion.registration.current_from_previous;
         const double area_before = track.filter.box().area();
-        // After dropped frames that were filled by repeats the objects have moved on meanwhile.
-        if (frozen_frames_ > 0) track.filter.smear(frozen_frames_ * track.filter.velocity());
+        // After dropped frames that were filled by repeats the objects have moved on meanwhile, or may have.
+        const int elapsed = motion.registration.elapsed;
+        if (frozen_frames_ > 0 && elapsed == 1) track.filter.smear(frozen_frames_ * track.filter.velocity());
+        for (int frame = 1; frame < elapsed; ++frame)
+            track.filter.predict(Homography(), model_.processNoise(track.filter.box().centre));
         track.filter.predict(map, model_.processNoise(track.filter.box().centre));
         const double scale = std::sqrt(track.filter.box().area() / area_before);
         track.origin_place = map.apply(track.origin_place);

@@ -142,6 +142,24 @@ TEST(IndependentMotion, BridgesAFrozenPicture) {
     EXPECT_NEAR(cv::norm(after_it.motion_vectors[0].velocity), 1.5, 0.03);
 }
 
+TEST(IndependentMotion, MeasuresOverAllThatPassedWhileThePictureStood) {
+    MovingCorners scene({{{300, 200}, {1.5, 0}}}, 0);
+    IndependentMotion motion(plain(), kScale);
+    after(motion, scene, 10);
+    cv::Matx33d passed = cv::Matx33d::eye();
+    for (int lost = 0; lost < 3; ++lost) passed = scene.next().registration.current_from_previous.matrix * passed;
+    RegisteredFrame next = scene.next();  // the scene's frame 13
+    next.frame = 10;
+    next.registration.elapsed = 4;
+    Homography& step = next.registration.current_from_previous;
+    step.matrix = step.matrix * passed;
+    step.from_frame = 9;
+    step.to_frame = 10;
+    const FrameMotion found = motion.next(next, flatFrame(10));
+    ASSERT_EQ(found.motion_vectors.size(), 24U);
+    EXPECT_NEAR(cv::norm(found.motion_vectors[0].velocity), 1.5, 0.03);
+}
+
 TEST(IndependentMotion, GoesOnBehindAFrameThatFailed) {
     // The failed frame brings foreign corners and a guess; the next brings the old ids back and mends the guess.
     MovingCorners scene({{{300, 200}, {1.5, 0}}}, 0);

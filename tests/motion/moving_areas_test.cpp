@@ -124,6 +124,28 @@ INSTANTIATE_TEST_SUITE_P(Directions, MovingAreasOfACar,
                          testing::Values(cv::Point2d(2, 0), cv::Point2d(-1.5, 1), cv::Point2d(0, -3),
                                          cv::Point2d(1.1, 0.4)));
 
+TEST(MovingAreas, AreAsFastAsTheyAreWherePicturesWereLost) {
+    const CarScene scene = sceneWith({2, 0});
+    for (const int lost : {1, 3, 4, 40}) {
+        SCOPED_TRACE(lost);
+        MovingAreas areas({}, kScale);
+        for (int index = 0; index < kFrames; ++index) {
+            const bool last = index == kFrames - 1;
+            Registration registration = panned(scene, index);
+            if (last) {
+                registration.elapsed = 1 + lost;
+                registration.current_from_previous.matrix(0, 2) *= 1 + lost;
+                registration.current_from_previous.matrix(1, 2) *= 1 + lost;
+            }
+            areas.add({index, index * 40000, scene.draw(last ? index + lost : index), {}}, registration);
+        }
+        const std::vector<MotionVector> vectors =
+            areas.infer(starved(scene), [](cv::Point2d) { return kScale.pxPerFrame(1); });
+        EXPECT_EQ(vectors.empty(), lost > 5) << "over a long time much comes and goes";
+        for (const MotionVector& vector : vectors) EXPECT_NEAR(vector.velocity.x, 2, 0.3);
+    }
+}
+
 TEST(MovingAreas, AreNotFiguresDrawnIntoThePicture) {
     const CarScene scene = sceneWith({2, 0});
     PictureMask graphics{cv::Mat::zeros(scene.size.height / 2, scene.size.width / 2, CV_8UC1), 2};

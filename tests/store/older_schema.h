@@ -8,6 +8,7 @@ namespace eyrie::test {
 /// versions of before go on from there.
 inline const std::string kBackToSchema27 =
     "DROP VIEW v_frames; DROP VIEW v_tracks; DROP INDEX zoomed_frame; ALTER TABLE frame DROP COLUMN zoom; "
+    "ALTER TABLE frame DROP COLUMN elapsed; "
     "DROP VIEW v_light; DROP VIEW v_frame_shadows; DROP VIEW v_box_trims; DROP TABLE light_finding; "
     "DROP TABLE frame_shadow; DROP TABLE box_trim; PRAGMA user_version = 27; ";
 

@@ -143,6 +143,7 @@ void expectSameMotion(const FrameMotion& read, const FrameMotion& written) {
     EXPECT_EQ(read.image_size, written.image_size);
     EXPECT_EQ(read.registration.state, written.registration.state);
     EXPECT_EQ(read.registration.failure, written.registration.failure);
+    EXPECT_EQ(read.registration.elapsed, written.registration.elapsed);
     EXPECT_EQ(read.registration.zoom, written.registration.zoom);
     const Homography& a = read.registration.current_from_previous;
     const Homography& b = written.registration.current_from_previous;

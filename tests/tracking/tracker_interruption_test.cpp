@@ -136,6 +136,28 @@ TEST(TrackerInterruption, nothingMovesInAFrozenFrame) {
     EXPECT_EQ(states[0].origin, StateOrigin::detected);
 }
 
+TEST(TrackerInterruption, tracksGoOnByAllThatPassedWhileThePictureStood) {
+    const MovingScene scene = twoCars();
+    Tracker tracker({}, scene.scale);
+    std::vector<TrackState> before;
+    for (int frame = 0; frame < 20; ++frame) before = tracker.next(scene.motion(frame), scene.detections(frame));
+    FrameMotion motion = scene.motion(19);
+    motion.registration.state = RegistrationState::frozen;
+    motion.registration.current_from_previous = {};
+    for (int i = 0; i < 9; ++i) tracker.next(motion, {});
+    motion.motion_vectors.clear();
+    motion.registration.state = RegistrationState::registered;
+    motion.registration.elapsed = 10;
+    const auto states = tracker.next(motion, {});  // the camera stands, nothing is detected
+    ASSERT_EQ(states.size(), 2u);
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        const cv::Point2d way = states[i].box.centre - before[i].box.centre;
+        EXPECT_NEAR(way.x, 10 * before[i].velocity.x, 0.5);
+        EXPECT_NEAR(way.y, 10 * before[i].velocity.y, 0.5);
+        EXPECT_EQ(states[i].id, before[i].id);
+    }
+}
+
 TEST(TrackerInterruption, stoppedVehiclesWaitInTheirPlace) {
     MovingScene scene;
     scene.objects = {{{100, 100}, {0.25, 0}, 20, 10, 0}};

@@ -32,8 +32,14 @@ struct Registration {
     RegistrationState state = RegistrationState::first;
     Homography current_from_previous;  ///< a prediction (state failed), the identity (first, frozen) or the estimate
     RegistrationFailure failure{};     ///< why not, in state failed
+    int elapsed = 1;                   ///< see framesPassed(); more than 1 only in state registered
     double zoom = 1;  ///< pixels per metre as a multiple of those of the first frame, as the camera has zoomed since
 
+    /// Frames over which everything has moved on since the picture before: none when it is the same picture, usually 1,
+    /// and after frozen ones as many more as the world went on meanwhile.
+    int framesPassed() const {
+        return state == RegistrationState::first || state == RegistrationState::frozen ? 0 : elapsed;
+    }
     bool reliable() const { return state == RegistrationState::registered || state == RegistrationState::frozen; }
 };
 

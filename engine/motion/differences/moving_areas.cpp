@@ -16,6 +16,7 @@
 namespace eyrie {
 namespace {
 
+constexpr int kLongestOfUsual = 2;        ///< times the usual time between pictures that are compared
 constexpr double kVectorSpacing = 0.6;    ///< m between inferred vectors …
 constexpr double kVectorSpacingPx = 2;    ///< … px at least
 constexpr int kAround = 2;                ///< px that an area grows by before it is looked for: outlines tell most
@@ -308,8 +309,11 @@ std::optional<cv::Point2d> MovingAreas::shiftOf(const DifferingArea& area, doubl
     const std::vector<cv::Point> pixels = grownPixels(area, bounds);
     const cv::Mat before = partOf(frames_.picture(gap_), frames_.pathTo(gap_), bounds);
     const double fastest = scale_.at(middleOf(bounds)).pxPerFrame(kMaxSpeed);
-    const int reach = std::clamp(static_cast<int>(std::ceil(fastest * gap_)), 4, kLongestReach);
+    const int frames = frames_.framesTo(gap_);
+    const int frames_before = frames_.framesTo(2 * gap_) - frames;
+    const int reach = std::clamp(static_cast<int>(std::ceil(fastest * frames)), 4, kLongestReach);
     if (isLowRate()) {
+        if (frames_before != frames) return std::nullopt;
         const auto way = matchWay(pixels, before, frames_.newest(), long_before, bounds.tl(), reach, kReturnShare);
         if (!way || way->correlation() < min_correlation) return std::nullopt;
         return way->on.shift - cv::Point2d(bounds.tl());
@@ -318,8 +322,9 @@ std::optional<cv::Point2d> MovingAreas::shiftOf(const DifferingArea& area, doubl
     if (!on || on->correlation < min_correlation) return std::nullopt;
     const cv::Point2d shift = on->shift - cv::Point2d(bounds.tl());
 
-    const cv::Point back(-cvRound(shift.x), -cvRound(shift.y));
-    const int return_reach = std::max(kReturnReach, cvRound(kReturnShare * std::hypot(shift.x, shift.y)));
+    const cv::Point2d came_by = shift * (1.0 * frames_before / frames);
+    const cv::Point back(-cvRound(came_by.x), -cvRound(came_by.y));
+    const int return_reach = std::max(kReturnReach, cvRound(kReturnShare * std::hypot(came_by.x, came_by.y)));
     const int margin = return_reach + 4;
     const cv::Rect whence(bounds.x + back.x - margin, bounds.y + back.y - margin, bounds.width + 2 * margin,
                           bounds.height + 2 * margin);
@@ -349,7 +354,8 @@ std::vector<std::optional<cv::Point2d>> MovingAreas::shiftsOf(const std::vector<
             const auto min_correlation = correlationNeeded(motion, place);
             if (!min_correlation) continue;
             const auto shift = shiftOf(areas[at], *min_correlation, long_before);
-            if (shift && std::hypot(shift->x, shift->y) >= std::max(options_.area_min_shift, min_speed(place) * gap_))
+            if (shift && std::hypot(shift->x, shift->y) >=
+                             std::max(options_.area_min_shift, min_speed(place) * frames_.framesTo(gap_)))
                 shifts[at] = shift;
         }
     });
@@ -358,7 +364,7 @@ std::vector<std::optional<cv::Point2d>> MovingAreas::shiftsOf(const std::vector<
 
 void MovingAreas::addVectors(const DifferingArea& area, cv::Point2d shift, const FrameMotion& motion,
                              std::vector<MotionVector>& inferred) {
-    const cv::Point2d velocity = shift / gap_;
+    const cv::Point2d velocity = shift / frames_.framesTo(gap_);
     const double alike = std::max(kAlikePx, kAlike * std::hypot(velocity.x, velocity.y));
     const cv::Rect bounds = grownBounds(area);
     const cv::Rect2d place = cv::Rect2d(bounds) + shift;
@@ -377,6 +383,8 @@ std::vector<MotionVector> MovingAreas::infer(const FrameMotion& motion,
                                              const std::function<double(cv::Point2d)>& min_speed) {
     std::vector<MotionVector> inferred;
     if (!options_.areas || frames_.count() < 2 * gap_) return inferred;
+    // Over a long stall much comes and goes.
+    if (frames_.framesTo(2 * gap_) > kLongestOfUsual * 2 * gap_) return inferred;
     const cv::Size size = frames_.newest().size();
     // Linear over the picture, so that corners suffice everywhere where they do at its four.
     const auto corners = cornersOf(size);

@@ -18,7 +18,10 @@ bool RegisteredFrames::add(const Frame& frame, const Registration& registration)
         pictures_.clear();
     } else {
         // A failed frame's homography is a guess whose product with the next one is true again (see Registrar).
-        for (Picture& picture : pictures_) picture.newest_from_it = step * picture.newest_from_it;
+        for (Picture& picture : pictures_) {
+            picture.newest_from_it = step * picture.newest_from_it;
+            picture.frames_ago += registration.framesPassed();
+        }
     }
     last_frame_ = frame.index;
     if (follows && registration.state != RegistrationState::registered) return false;

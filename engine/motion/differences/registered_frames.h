@@ -37,6 +37,9 @@ class RegisteredFrames {
     /// … and the way from the newest picture to it.
     Homography pathTo(int back) const { return pictures_.at(static_cast<std::size_t>(back)).newest_from_it.inverse(); }
 
+    /// Frames that passed from it to the newest; more than `back` where pictures were lost or not registered.
+    int framesTo(int back) const { return pictures_.at(static_cast<std::size_t>(back)).frames_ago; }
+
     /// What is remembered of the frames so far, written or read; see core/state_archive.h. To be read into one of the
     /// same options.
     template <class Archive>
@@ -46,6 +49,7 @@ class RegisteredFrames {
     struct Picture {
         cv::Mat gray;
         Homography newest_from_it;  ///< its `from_frame` is the picture's frame
+        int frames_ago = 0;
 
         template <class Archive>
         void transfer(Archive& archive);

@@ -73,9 +73,8 @@ bool IndependentMotion::extendPaths(const Registration& registration) {
     const Homography& step = registration.current_from_previous;
     if (!last_frame_ || step.from_frame != *last_frame_ || !finite(step)) return false;
     if (!any_picture_) return true;
-    const int frames = registration.state == RegistrationState::frozen ? 0 : 1;
-    for (Path& path : paths_) path = {step * path.current_from_past, path.frames + frames};
-    newest_ = {step * newest_.current_from_past, newest_.frames + frames};
+    for (Path& path : paths_) path = {step * path.current_from_past, path.frames + registration.framesPassed()};
+    newest_ = {step * newest_.current_from_past, newest_.frames + registration.framesPassed()};
     return true;
 }
 

@@ -208,6 +208,7 @@ std::vector<RowRule> rowRules() {
          frame + " AND " + isOneOf("status", stored::kTrackStatuses) + " AND " +
              isOneOf("origin", stored::kStateOrigins),
          "state of a track is impossible"},
+        {"frame", "elapsed BETWEEN 1 AND " + std::to_string(kLastFrame), "time of a frame is impossible", 29},
         {"frame", "zoom BETWEEN 1e-2 AND 1e2", "zoom of a frame is impossible", 29},
         {"frame", "details IN (0, 1)", "whether details of a frame were kept is no answer", 15},
         {"unfinished_frame", frame + " AND are_squeezed_vectors(vectors) AND are_squeezed_boxes(vehicles)",

@@ -65,17 +65,19 @@ FROM box_trim JOIN v_runs ON v_runs.run = box_trim.run_id;
 )sql");
 }
 
-// Registration::zoom of each frame, and metres and km/h of tracks by its mean over a track's life. Few runs have frames
-// that are zoomed; the index finds whether there are any.
-void addZoom(SQLite::Database& database) {
+// Registration::elapsed and zoom of each frame, and metres and km/h of tracks by its mean over a track's life. Few runs
+// have frames that are zoomed; the index finds whether there are any.
+void addElapsedAndZoom(SQLite::Database& database) {
     database.exec(R"sql(
+ALTER TABLE frame ADD COLUMN elapsed INTEGER NOT NULL DEFAULT 1;
 ALTER TABLE frame ADD COLUMN zoom REAL NOT NULL DEFAULT 1;
 CREATE INDEX zoomed_frame ON frame (run_id, frame, zoom) WHERE zoom <> 1;
 DROP VIEW IF EXISTS v_frames;
 CREATE VIEW v_frames AS
 SELECT frame.run_id AS run, frame.frame, frame.time_us / 1e6 AS seconds, frame.registration_state AS registration,
     frame.reason, frame.picture, frame.corner_count AS corners, frame.motion_vector_count AS motion_vectors,
-    frame.detection_count AS detections, frame.track_count AS tracks, frame.details, frame.zoom
+    frame.detection_count AS detections, frame.track_count AS tracks, frame.details, frame.zoom,
+    CASE WHEN frame.registration_state IN ('first', 'frozen') THEN 0 ELSE frame.elapsed END AS elapsed
 FROM frame JOIN v_runs ON v_runs.run = frame.run_id;
 DROP VIEW IF EXISTS v_tracks;
 CREATE VIEW v_tracks AS

@@ -43,7 +43,7 @@ constexpr std::array kMigrations{addRuns,
                                  addStartFractions,
                                  addSourceDigests,
                                  addLight,
-                                 addZoom};
+                                 addElapsedAndZoom};
 
 }  // namespace
 

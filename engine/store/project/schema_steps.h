@@ -36,6 +36,6 @@ void addRejectedProposals(SQLite::Database& database);
 void addStartFractions(SQLite::Database& database);
 void addSourceDigests(SQLite::Database& database);
 void addLight(SQLite::Database& database);
-void addZoom(SQLite::Database& database);
+void addElapsedAndZoom(SQLite::Database& database);
 
 }  // namespace eyrie::schema

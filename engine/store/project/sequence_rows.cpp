@@ -9,6 +9,12 @@
 
 namespace eyrie {
 
+int readElapsed(RowReader& row) {
+    const int elapsed = row.integer();
+    if (elapsed < 1 || elapsed > kLastFrame) throw MalformedRow{"an impossible time since the frame before"};
+    return elapsed;
+}
+
 double readZoom(RowReader& row) {
     const double zoom = row.real();
     if (!(zoom >= kLeastZoom && zoom <= kMostZoom)) throw MalformedRow{"an impossible zoom"};

@@ -23,6 +23,8 @@ inline constexpr double kMostUncertain = 1e9;
 class RowReader;
 /// The next column as the number of a frame. Throws MalformedRow for one that no video has.
 FrameIndex readFrameNumber(RowReader& row);
+/// Registration::elapsed of a frame. Throws MalformedRow for none.
+int readElapsed(RowReader& row);
 /// Registration::zoom of a frame. Throws MalformedRow for one that no camera has.
 double readZoom(RowReader& row);
 

@@ -28,7 +28,7 @@ std::string frameColumns() {
         "run_id, frame, time_us, width, height, registration_state, reason, picture, reason_count, "
         "reason_of, from_frame, to_frame, "
         "h00, h01, h02, h10, h11, h12, h20, h21, h22, inliers, rms_px, corner_count, motion_vector_count, "
-        "detection_count, track_count, background_speed_sigma, details, zoom";
+        "detection_count, track_count, background_speed_sigma, details, elapsed, zoom";
     for (const char* stage : stored::kStageColumns) columns += std::string(", ") + stage;
     return columns;
 }
@@ -158,6 +158,7 @@ void FrameRows::insert(int run_id, const FrameResult& result, bool details) {
         .integer(summary.tracks)
         .real(motion.background_speed_sigma)
         .integer(details ? 1 : 0)
+        .integer(motion.registration.elapsed)
         .real(motion.registration.zoom);
     for (const float ms : result.stage_ms) row.real(static_cast<double>(ms));
     row.run();

@@ -103,7 +103,7 @@ std::optional<FrameResult> readFrameRow(SQLite::Database& database, int run_id, 
         "SELECT time_us, width, height, registration_state, reason, picture, reason_count, reason_of, from_frame, "
         "to_frame, "
         "h00, h01, h02, h10, h11, h12, h20, h21, h22, inliers, rms_px, corner_count, background_speed_sigma, details, "
-        "zoom";
+        "elapsed, zoom";
     for (const char* stage : stored::kStageColumns) query += std::string(", ") + stage;
     SQLite::Statement statement(database, query + " FROM frame WHERE run_id = ? AND frame = ?");
     statement.bind(1, run_id);
@@ -128,6 +128,7 @@ std::optional<FrameResult> readFrameRow(SQLite::Database& database, int run_id, 
     motion.corner_count = row.integer();
     motion.background_speed_sigma = row.real();
     details = row.integer() != 0;
+    motion.registration.elapsed = readElapsed(row);
     motion.registration.zoom = readZoom(row);
     for (float& ms : result.stage_ms) ms = static_cast<float>(row.real());
     return result;

@@ -141,7 +141,7 @@ std::vector<RunRecord> readRuns(ProjectFile& project, const std::string& where, 
 
 constexpr const char* kRegistrationRows =
     "SELECT from_frame, to_frame, h00, h01, h02, h10, h11, h12, h20, h21, h22, inliers, rms_px, registration_state, "
-    "reason, picture, reason_count, reason_of, zoom FROM frame WHERE run_id = ? AND frame >= ? ORDER BY frame";
+    "reason, picture, reason_count, reason_of, elapsed, zoom FROM frame WHERE run_id = ? AND frame >= ? ORDER BY frame";
 
 Homography homographyOf(RowReader& row) {
     Homography homography;
@@ -303,6 +303,7 @@ void RunStore::visitRegistrations(int run_id, const std::function<void(const Reg
             registration.current_from_previous = homographyOf(row);
             registration.state = row.word(stored::kRegistrationStates);
             registration.failure = row.failure();
+            registration.elapsed = readElapsed(row);
             registration.zoom = readZoom(row);
             visitor(registration);
         }

@@ -64,7 +64,7 @@ class LocalFit {
 
 /// The neighbours of one state, carried into its frame.
 struct Neighbour {
-    double time = 0;  ///< frames from the state
+    double time = 0;  ///< frames from the state, but those in which the picture stood
     cv::Point2d centre;
     double heading = 0;
     double weight = 0;
@@ -75,6 +75,7 @@ void collectNeighbours(const TrackPath& path, std::size_t at, int direction, con
     const FrameIndex here = path.states[at].first;
     Homography into_here;
     FrameIndex frame = here;
+    int time = 0;
     for (std::size_t i = at + static_cast<std::size_t>(direction); i < path.states.size();
          i += static_cast<std::size_t>(direction)) {
         const auto& [other_frame, other] = path.states[i];
@@ -83,11 +84,12 @@ void collectNeighbours(const TrackPath& path, std::size_t at, int direction, con
             const cv::Matx33d* step = ground.step(frame + direction, frame, false);
             if (!step) return;
             into_here.matrix = into_here.matrix * *step;
+            time += direction * ground.elapsed(frame, frame + direction);
             frame += direction;
         }
-        const double time = other_frame - here;
-        const double near = 1 - std::pow(std::abs(time) / (half_window + 1), 3);
-        neighbours.push_back({time, into_here.apply(other.box.centre),
+        if (std::abs(time) > half_window) return;
+        const double near = 1 - std::pow(std::abs(time) / (half_window + 1.0), 3);
+        neighbours.push_back({1.0 * time, into_here.apply(other.box.centre),
                               into_here.turned(other.box.centre, other.box.heading),
                               weightOf(other) * near * near * near});
     }

@@ -64,7 +64,7 @@ std::optional<TimedPathState> EndFollower::next(const HeldPictures& pictures, co
     if (!step || !current || !picture || current->size() != picture->size()) return std::nullopt;
     Homography map;
     map.matrix = *step;
-    if (!ground.frozen(frame_, to)) {
+    if (ground.elapsed(frame_, to) > 0) {
         const BoxFollower::Step moved = follower_.advance(*current, *picture, map);
         const bool drives = drivesBySight(moved, map);
         if (moved.end || moved.certainty < (drives ? kFairLooks : kSureLooks)) return std::nullopt;

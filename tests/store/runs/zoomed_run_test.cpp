@@ -30,6 +30,9 @@ class ZoomedRun : public testing::Test {
             result.motion.frame = frame;
             result.motion.image_size = planned.sequence.size;
             result.motion.registration.zoom = kZooms[frame];
+            result.motion.registration.state =
+                frame == 4 || frame == 5 ? RegistrationState::frozen : RegistrationState::registered;
+            result.motion.registration.elapsed = frame == 6 ? 3 : 1;
             if (frame >= 2 && frame <= 7) {
                 TrackState state;
                 state.id = 3;
@@ -58,7 +61,7 @@ TEST_F(ZoomedRun, ComesBackAsItWas) {
     const std::vector<Registration> registrations = store.registrations(run_);
     ASSERT_EQ(registrations.size(), kFrames);
     SQLite::Database other(path_, SQLite::OPEN_READONLY);
-    SQLite::Statement told(other, "SELECT zoom FROM v_frames ORDER BY frame");
+    SQLite::Statement told(other, "SELECT zoom, elapsed FROM v_frames ORDER BY frame");
     for (int frame = 0; frame < kFrames; ++frame) {
         SCOPED_TRACE(frame);
         EXPECT_EQ(store.frameResult(run_, frame)->motion.registration.zoom, kZooms[frame]);
@@ -66,6 +69,10 @@ TEST_F(ZoomedRun, ComesBackAsItWas) {
         EXPECT_EQ(course.at(frame), kZooms[frame]);
         ASSERT_TRUE(told.executeStep());
         EXPECT_EQ(told.getColumn(0).getDouble(), kZooms[frame]);
+        const int passed = frame == 4 || frame == 5 ? 0 : frame == 6 ? 3 : 1;
+        EXPECT_EQ(told.getColumn(1).getInt(), passed);
+        EXPECT_EQ(registrations[std::size_t(frame)].framesPassed(), passed);
+        EXPECT_EQ(store.frameResult(run_, frame)->motion.registration.framesPassed(), passed);
     }
     EXPECT_TRUE(checkProject(path_).healthy());
 }
@@ -90,7 +97,7 @@ TEST_F(ZoomedRun, TellsItsTracksInMetresByTheZoomOfTheirFrames) {
     EXPECT_DOUBLE_EQ(run.scale.at(4, {300, 100}).metres(40), 40 * 0.345 / (1.5 * (1 + 0.002 * (100 - 287.5) / 1.5)));
 }
 
-TEST_F(ZoomedRun, OfBeforeHasNoZoomAndAnImpossibleOneIsRefused) {
+TEST_F(ZoomedRun, OfBeforeHasNoZoomAndWhatNoCameraHasIsRefused) {
     const auto change = [&](const std::string& sql) { SQLite::Database(path_, SQLite::OPEN_READWRITE).exec(sql); };
     for (const char* zoom : {"0", "-1", "1e9", "'much'"}) {
         SCOPED_TRACE(zoom);
@@ -98,6 +105,14 @@ TEST_F(ZoomedRun, OfBeforeHasNoZoomAndAnImpossibleOneIsRefused) {
         ProjectFile project = ProjectFile::open(path_, ProjectFile::Mode::read_only);
         EXPECT_THROW(RunStore(project).frameResult(run_, 4), Error);
         EXPECT_THROW(RunStore(project).run(run_), Error);
+        EXPECT_FALSE(checkProject(path_).healthy());
+    }
+    change("UPDATE frame SET zoom = 1");
+    for (const char* elapsed : {"0", "-2", "1e12"}) {
+        SCOPED_TRACE(elapsed);
+        change(std::string("UPDATE frame SET elapsed = ") + elapsed + " WHERE frame = 4");
+        ProjectFile project = ProjectFile::open(path_, ProjectFile::Mode::read_only);
+        EXPECT_THROW(RunStore(project).frameResult(run_, 4), Error);
         EXPECT_FALSE(checkProject(path_).healthy());
     }
     change(test::kBackToSchema27);

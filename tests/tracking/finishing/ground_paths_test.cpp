@@ -102,6 +102,12 @@ TEST(GroundMotion, CarriesForwardBackwardAndThroughFrozenFrames) {
     EXPECT_NEAR(frozen.carried(moving, 2, 3, true)->box.centre.x, 100, 1e-9);
     EXPECT_NEAR(frozen.carried(moving, 3, 2, true)->box.centre.x, 100, 1e-9);
     EXPECT_NEAR(frozen.carried(moving, 3, 4, true)->box.centre.x, 102, 1e-9);
+    // After it, it makes good what passed meanwhile.
+    still[4].registration.elapsed = 3;
+    const GroundMotion went_on(still);
+    EXPECT_NEAR(went_on.carried(moving, 3, 4, true)->box.centre.x, 106, 1e-9);
+    EXPECT_NEAR(went_on.carried(moving, 4, 3, true)->box.centre.y, 97, 1e-9);
+    EXPECT_NEAR(went_on.carried(moving, 0, 5, true)->box.centre.x, 112, 1e-9);
 }
 
 TEST(GroundMotion, KnowsOnlyAdjacentFramesThatWereRegistered) {
@@ -209,6 +215,32 @@ TEST(TrackOccupancy, IsAskedByFrameAndLetsBoxesTouch) {
     taken.extended(paths[0]);
     EXPECT_EQ(taken.in(1).size(), 1U);
     EXPECT_EQ(taken.in(33).size(), 1U);
+}
+
+TEST(SmoothPath, LeavesATrackWhereThePictureStands) {
+    // A vehicle at 3 px/frame: the picture stands in frames 15 to 19, and in 20 all that was lost has passed.
+    std::vector<FrameMotionSummary> motion;
+    motion.reserve(40);
+    for (int frame = 0; frame < 40; ++frame) motion.push_back(test::summaryOfFrame(frame));
+    for (int frame = 15; frame < 20; ++frame) motion[std::size_t(frame)].registration.state = RegistrationState::frozen;
+    motion[20].registration.elapsed = 6;
+    TrackPath path{1, {}};
+    path.states.reserve(40);
+    for (int frame = 0; frame < 40; ++frame) {
+        const int shown = frame >= 15 && frame < 20 ? 14 : frame;
+        TrackState state;
+        state.id = 1;
+        state.box = {{10.0 + 3 * shown, 50}, 20, 10, 0};
+        state.velocity = {3, 0};
+        state.origin = StateOrigin::detected;
+        path.states.emplace_back(frame, PathState(state));
+    }
+    TrackPath smooth = path;
+    smoothPath(smooth, GroundMotion(motion), 8);
+    for (std::size_t i = 0; i < path.states.size(); ++i) {
+        EXPECT_NEAR(smooth.states[i].second.box.centre.x, path.states[i].second.box.centre.x, 1e-3) << i;
+        EXPECT_NEAR(smooth.states[i].second.velocity.x, 3, 1e-3) << i;
+    }
 }
 
 TEST(SmoothPath, IsAFitOverTheGroundOfNearStatesByTheirWeights) {

@@ -32,9 +32,11 @@ QString registrationText(const Registration& registration) {
         case RegistrationState::registered:
             break;
     }
-    return QObject::tr("rms %1 px, %2 corners agree")
-        .arg(numberText(registration.current_from_previous.rms_px, 3))
-        .arg(QLocale().toString(registration.current_from_previous.inliers));
+    const QString text = QObject::tr("rms %1 px, %2 corners agree")
+                             .arg(numberText(registration.current_from_previous.rms_px, 3))
+                             .arg(QLocale().toString(registration.current_from_previous.inliers));
+    return registration.elapsed == 1 ? text
+                                     : QObject::tr("%1; %2 frames have passed").arg(text).arg(registration.elapsed);
 }
 
 /// "1.8 times as large as in the first frame", as the camera zooms.
