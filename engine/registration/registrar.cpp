@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/stopwatch.h"
+#include "registration/estimation/frames_passed.h"
 #include "registration/estimation/point_jacobian.h"
 #include "registration/pictures/noise_level.h"
 #include "registration/pictures/scaled_to_one.h"
@@ -17,74 +18,17 @@ namespace {
 // A fit on which fewer agree is tried again with any perspective, and given up for one on which clearly more do.
 constexpr double kUnquestionedShare = 0.5;
 constexpr double kClearlyMore = 1.2;
-constexpr double kNearPx = 1;          ///< off the coarse registration, for a corner that surely agrees with it
-constexpr double kFarthestPx = 10;     ///< off the coarse registration, for a corner that was looked for around it
-constexpr std::size_t kRecent = 8;     ///< motions that a camera's usual one is told by: single ones tremble
-constexpr double kTellingPx = 4;       ///< by which pictures differ where a camera goes on or not, to tell it by
-constexpr double kTellingMoverPx = 2;  ///< the same of what moves by itself, at …
-constexpr double kTellingSpeed = 0.7;  ///< … px/frame or more, …
-constexpr double kMoverPx = 1.5;       ///< … which is found this near to where it should be, …
-constexpr double kMoverShare = 0.15;   ///< … and by this share of its way, but nearer to it than to the other place
-constexpr int kFewestTelling = 8;      ///< such corners, to ask for missing pictures …
-constexpr int kMostMissing = 3;        ///< … in a row
-constexpr int kLongStall = 3;          ///< frozen frames; more are no rhythm of the video but a gap in it
-
-cv::Matx33d powerOf(const cv::Matx33d& m, int exponent) {
-    cv::Matx33d result = cv::Matx33d::eye();
-    for (int i = 0; i < exponent; ++i) result = m * result;
-    return scaledToOne(result);
-}
-
-/// The farthest that any corner of a picture lies from where another map takes it, px.
-double apart(const cv::Matx33d& a, const cv::Matx33d& b, cv::Size image) {
-    double farthest = 0;
-    for (const float x : {0.0F, float(image.width - 1)}) {
-        for (const float y : {0.0F, float(image.height - 1)}) {
-            const cv::Point2d off = PointJacobian(a, {x, y}).point - PointJacobian(b, {x, y}).point;
-            farthest = std::max(farthest, std::hypot(off.x, off.y));
-        }
-    }
-    return farthest;
-}
+constexpr double kNearPx = 1;       ///< off the coarse registration, for a corner that surely agrees with it
+constexpr double kFarthestPx = 10;  ///< off the coarse registration, for a corner that was looked for around it
+constexpr std::size_t kRecent = 8;  ///< motions that a camera's usual one is told by: single ones tremble
+constexpr int kFewestTelling = 8;   ///< corners that drive, to ask for missing pictures …
+constexpr int kMostMissing = 3;     ///< … in a row
 
 std::vector<cv::Point2f> positionsOf(const CornerSet& set) {
     std::vector<cv::Point2f> positions;
     positions.reserve(set.corners.size());
     for (const TrackedCorner& corner : set.corners) positions.push_back(corner.position);
     return positions;
-}
-
-/// What comes of the given motions on average, each a small one.
-cv::Matx33d meanOf(const std::deque<cv::Matx33d>& motions) {
-    cv::Matx33d whole = cv::Matx33d::eye();
-    for (const cv::Matx33d& motion : motions) whole = scaledToOne(motion * whole);
-    if (motions.empty()) return whole;
-    return cv::Matx33d::eye() + (whole - cv::Matx33d::eye()) * (1.0 / static_cast<double>(motions.size()));
-}
-
-/// Corners that moved by themselves before, fast enough to tell how many frames have passed.
-struct TellingMovers {
-    int all = 0;
-    int there = 0;  ///< found where they should be
-};
-
-/// `elapsed`: frames that are taken to have passed, not `other`.
-TellingMovers moversAfter(int elapsed, int other, const CornerSet& set, const std::vector<TrackedPosition>& found,
-                          const cv::Matx33d& to_from) {
-    TellingMovers movers;
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        const TrackedCorner& corner = set.corners[i];
-        const double way = std::hypot(corner.velocity.x, corner.velocity.y);
-        const double between = way * std::abs(other - elapsed);
-        if (!corner.moves || corner.sticks || way < kTellingSpeed || between < kTellingMoverPx) continue;
-        ++movers.all;
-        if (!found[i].found) continue;
-        const PointJacobian map(to_from, corner.position);
-        const cv::Point2f off = found[i].position - map.point - map.vector(corner.velocity) * float(elapsed);
-        const double near = std::min(kMoverPx + kMoverShare * way * elapsed, between / 2);
-        movers.there += std::hypot(off.x, off.y) < near ? 1 : 0;
-    }
-    return movers;
 }
 
 /// Of what is drawn into the picture no ground can be told.
@@ -212,17 +156,6 @@ RegisteredFrame Registrar::repeatedFrame(const Frame& frame) {
     return result;
 }
 
-std::vector<int> Registrar::elapsedBy(const cv::Matx33d& motion, cv::Size image) const {
-    // Either the pictures in between were lost, or the video only paused.
-    const int most = repeated_ + 1;
-    const cv::Matx33d usual = meanOf(recent_);
-    const cv::Matx33d went_on = powerOf(usual, most);
-    if (apart(usual, went_on, image) >= kTellingPx)
-        return {apart(motion, went_on, image) < apart(motion, usual, image) ? most : 1};
-    // A camera at rest tells nothing. Single pictures are repeated to fill up a rate.
-    return repeated_ >= kLongStall ? std::vector{most, 1} : std::vector{1, most};
-}
-
 std::vector<cv::Matx33d> Registrar::predictionsFor(const Anchor& anchor) const {
     // After frozen frames the camera either went on meanwhile or stood still with them.
     std::vector<cv::Matx33d> predictions{scaledToOne(motion_ * anchor.latest_from_anchor)};
@@ -251,7 +184,7 @@ void Registrar::trackMovers(const Anchor& anchor, const cv::Matx33d& start, doub
         match.positions = std::move(found);
     };
     if (repeated_ > 0 && anchor.frames_ago == 0) {
-        for (const int elapsed : elapsedBy(start, anchor.pyramid.size()))
+        for (const int elapsed : framesPassedBy(start, recent_, repeated_, anchor.pyramid.size()))
             attempt(elapsed, elapsed == 1 ? repeated_ + 1 : 1);
         return;
     }

@@ -69,9 +69,6 @@ class Registrar {
     RegisteredFrame failedFrame(const Frame& frame, RegistrationFailure failure, StageTimes& times);
 
     std::optional<Match> registerOnto(const Anchor& anchor, RegistrationFailure& failure, StageTimes& times) const;
-    /// Over how many frames everything may have moved on to the picture in hand, after frozen ones; the likeliest
-    /// first, alone where the camera tells. `motion`: from the picture before.
-    std::vector<int> elapsedBy(const cv::Matx33d& motion, cv::Size image) const;
     /// Follows the corners of a picture into the one in hand, and tells over how many frames they have moved on.
     void trackMovers(const Anchor& anchor, const cv::Matx33d& start, double noise, Match& match) const;
     std::vector<cv::Matx33d> predictionsFor(const Anchor& anchor) const;
