@@ -79,6 +79,7 @@ class TrackHalf {
     void transfer(Archive& archive);
 
  private:
+    /// Clustering at the scale of a frame.
     MotionClustering clusteringIn(const FrameMotion& motion) const;
     std::vector<MotionCluster> findClusters(const Frame& frame, const FrameMotion& motion);
     /// What stacks offer for a cluster; nothing: it is searched in the raw image.

@@ -177,21 +177,22 @@ void Registrar::trackMovers(const Anchor& anchor, const cv::Matx33d& start, doub
         std::vector<TrackedPosition> found =
             tracker_.track(anchor.corners, anchor.pyramid, current_, start, noise, anchor.frames_ago + elapsed);
         // What moves by itself is found where it has come to.
-        const int there = moversAfter(elapsed, other, anchor.corners, found, start).there;
-        if (there <= most_there) return;
-        most_there = there;
-        match.elapsed = elapsed;
-        match.positions = std::move(found);
+        const TellingMovers movers = moversAfter(elapsed, other, anchor.corners, found, start);
+        if (movers.there > most_there) {
+            most_there = movers.there;
+            match.elapsed = elapsed;
+            match.positions = std::move(found);
+        }
+        return movers.all;
     };
     if (repeated_ > 0 && anchor.frames_ago == 0) {
         for (const int elapsed : framesPassedBy(start, recent_, repeated_, anchor.pyramid.size()))
             attempt(elapsed, elapsed == 1 ? repeated_ + 1 : 1);
         return;
     }
-    attempt(1, 2);
+    const int all = attempt(1, 2);
     if (anchor.frames_ago > 0) return;
     // Where most of what moved is gone at once, pictures may be missing.
-    const int all = moversAfter(1, 2, anchor.corners, match.positions, start).all;
     for (int elapsed = 2; elapsed <= kMostMissing + 1; ++elapsed) {
         if (all < kFewestTelling || 2 * most_there >= all) return;
         most_there = std::max(most_there, all / 4);

@@ -16,16 +16,10 @@ constexpr double kAtOnce = 0.15;            ///< from picture to picture
 constexpr double kShareOfHalf = 0.25;       ///< of a zoom that falls on either half of that time
 constexpr double kFarthest = 2.8;           ///< logarithm of the zoom, either way: sixteen times
 
-cv::Point2d levelOf(const ScaleSlope& slope) {
-    if (slope.isFlat()) return {1, 0};
-    const double steepness = std::hypot(slope.right_per_px, slope.down_per_px);
-    return {slope.down_per_px / steepness, -slope.right_per_px / steepness};
-}
-
 }  // namespace
 
 ZoomFollower::ZoomFollower(const SceneScale& scale, double before)
-    : level_(levelOf(scale.slope)),
+    : level_(scale.slope.level() / std::sqrt(scale.slope.level().dot(scale.slope.level()))),
       frame_rate_hz_(scale.frame_rate_hz),
       window_(std::max(kFewestPictures, static_cast<std::size_t>(std::lround(kSeconds * scale.frame_rate_hz)))),
       zoom_log_(std::log(before)) {}

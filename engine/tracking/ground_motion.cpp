@@ -117,7 +117,7 @@ double GroundMotion::zoomAt(const cv::Matx33d& map, cv::Point2d place) const {
     const HomographyJacobian there(map, place);
     if (slope_.isFlat()) return there.scale();
     // Along the horizon a metre grows with the place; across it it also comes to be seen less at an angle.
-    const cv::Point2d level = cv::Point2d(-slope_.down_per_px, slope_.right_per_px);
+    const cv::Point2d level = slope_.level();
     const cv::Point2d enlarged = there.vector(level);
     return std::sqrt(enlarged.dot(enlarged) / level.dot(level)) / enlargement(place, there.point());
 }

@@ -36,7 +36,7 @@ struct Registration {
     double zoom = 1;  ///< pixels per metre as a multiple of those of the first frame, as the camera has zoomed since
 
     /// Frames over which everything has moved on since the picture before: none when it is the same picture, usually 1,
-    /// and after frozen ones as many more as the world went on meanwhile.
+    /// and more where pictures were lost, be it that frozen ones stand for them or that they are missing.
     int framesPassed() const {
         return state == RegistrationState::first || state == RegistrationState::frozen ? 0 : elapsed;
     }

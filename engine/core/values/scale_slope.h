@@ -26,6 +26,8 @@ struct ScaleSlope {
     bool operator==(const ScaleSlope&) const = default;
 
     cv::Point2d centre() const { return {centre_x, centre_y}; }
+    /// A direction in which the scale stays the same: that of the horizon, of any length; level where it is flat.
+    cv::Point2d level() const { return isFlat() ? cv::Point2d(1, 0) : cv::Point2d(-down_per_px, right_per_px); }
     bool isFlat() const { return right_per_px == 0 && down_per_px == 0; }
     /// The same slope with the growth counted from another place, where the scale is the given one then.
     ScaleSlope countedFrom(cv::Point2d place) const {

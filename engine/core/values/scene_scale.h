@@ -66,7 +66,7 @@ struct SceneScale {
 /// Whether lengths in metres mean something: the GSD is given, or was estimated from the traffic. Not where it is the
 /// assumption that a scale starts with. To be asked of a run's scale, not of that of a frame or place.
 inline bool hasMetricLimits(const SceneScale& scale) {
-    return scale.gsd_known || scale.gsd_m_per_px != SceneScale().gsd_m_per_px;
+    return scale.gsd_known || scale.gsd_m_per_px != kAssumedGsd;
 }
 
 }  // namespace eyrie

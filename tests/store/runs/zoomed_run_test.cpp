@@ -74,6 +74,13 @@ TEST_F(ZoomedRun, ComesBackAsItWas) {
         EXPECT_EQ(registrations[std::size_t(frame)].framesPassed(), passed);
         EXPECT_EQ(store.frameResult(run_, frame)->motion.registration.framesPassed(), passed);
     }
+    for (int first = 0; first < kFrames; ++first) {
+        double sum = 0;
+        for (int last = first; last < kFrames; ++last) {
+            sum += kZooms[last];
+            EXPECT_NEAR(course.meanOf(first, last), sum / (last - first + 1), 1e-12) << first << " to " << last;
+        }
+    }
     EXPECT_TRUE(checkProject(path_).healthy());
 }
 

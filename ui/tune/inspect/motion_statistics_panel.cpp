@@ -175,13 +175,14 @@ void MotionStatisticsPanel::showSpeeds() {
         return;
     }
     const auto count = static_cast<double>(speeds.size());
-    const QString mean = speedText(std::accumulate(speeds.begin(), speeds.end(), 0.0) / count, session_.scale());
+    const SceneScale scale = wholeRun() ? session_.scale() : frame.scale;
+    const QString mean = speedText(std::accumulate(speeds.begin(), speeds.end(), 0.0) / count, scale);
     const QString number = QLocale().toString(count, 'f', 0);
     speed_title_->setText(
         wholeRun()
             ? tr("<b>Speed</b> of the %1 motion vectors of all frames, mean %2").arg(number, mean)
             : tr("<b>Speed</b> of the %1 motion vectors of frame %2, mean %3").arg(number).arg(frame.index).arg(mean));
-    speeds_->setData(speedHistogramOf(std::move(speeds), session_.scale()));
+    speeds_->setData(speedHistogramOf(std::move(speeds), scale));
 }
 
 void MotionStatisticsPanel::showLives() {

@@ -66,7 +66,8 @@ class ReplayLoader::Worker {
         view->differences = frame.differences;
         view->traces = replay_->trace(wish.cluster);
         if (wish.general_segmentation && !view->traces.empty())
-            view->general = generalSegmentation(view->traces.front().roi, replay_->scale());
+            view->general =
+                generalSegmentation(view->traces.front().roi, replay_->scale().zoomed(view->traces.front().roi.zoom));
         task.tell([this, view = std::shared_ptr<const ReplayView>(std::move(view))] { owner_.answers_.show(view); });
     }
 

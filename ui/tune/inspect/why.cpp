@@ -62,7 +62,7 @@ void Why::ask(QPointF image_point, double margin) {
     track_.reset();
     area_.reset();
     if (result) area_ = boxAt(*result, point, margin, track_);
-    if (!area_) area_ = placeAt(point, session_.scale());
+    if (!area_) area_ = placeAt(point, session_.scale().in(session_.viewFrame().index));
     request();
 }
 
