@@ -2,20 +2,15 @@
 
 #include <utility>
 
+#include "core/clock_step.h"
 #include "core/time_text.h"
 
 namespace eyrie {
 namespace {
 
-constexpr double kNeverAJump_s = 2;  ///< slow cameras and lost pictures
-constexpr double kJumpInFrames = 10;
 constexpr std::size_t kMostNamed = 3;  ///< frames that one can still read
 
 }  // namespace
-
-bool isClockJump(double step_s, double usual_s) {
-    return step_s > kNeverAJump_s && step_s > kJumpInFrames * usual_s;
-}
 
 ClockJumps::ClockJumps(double frame_rate_hz) : usual_s_(1 / frame_rate_hz) {}
 

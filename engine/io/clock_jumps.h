@@ -9,10 +9,6 @@
 
 namespace eyrie {
 
-/// Whether the time from one frame to the next is no frame's: the clock was set ahead, or the recording paused.
-/// `usual_s`: how long a frame lasts, mostly.
-bool isClockJump(double step_s, double usual_s);
-
 /// Looks after the clock of a video that is read frame by frame. One that goes back is mended when the video is opened.
 class ClockJumps {
  public:

@@ -5,6 +5,7 @@
 #include <opencv2/core.hpp>
 #include <utility>
 
+#include "core/clock_step.h"
 #include "core/error.h"
 #include "core/stopwatch.h"
 #include "registration/estimation/frames_passed.h"
@@ -93,6 +94,7 @@ RegisteredFrame Registrar::next(const Frame& frame, StageTimes* times) {
         const Stopwatch timer(spent, Stage::tracking_corners);
         current_.build(frame.gray);
         current_noise_ = noiseLevel(current_.level(0));
+        current_time_us_ = frame.time_us;
         repeats = anchor_ && repetition_.repeats(difference(anchor_->pyramid.level(0), current_.level(0)));
     }
     if (!anchor_) {
@@ -125,9 +127,13 @@ RegisteredFrame Registrar::next(const Frame& frame, StageTimes* times) {
     return result;
 }
 
+Registrar::Anchor Registrar::freshAnchor(const Frame& frame) const {
+    return {current_, CornerSet(tracker_.window()), current_noise_, cv::Matx33d::eye(), 0, frame.index, frame.time_us};
+}
+
 RegisteredFrame Registrar::firstFrame(const Frame& frame, StageTimes& times) {
     estimator_.emplace(options_.homography, frame.gray.size());
-    Anchor anchor{current_, CornerSet(tracker_.window()), current_noise_, cv::Matx33d::eye(), 0, frame.index};
+    Anchor anchor = freshAnchor(frame);
     replenish(anchor, times);
     usual_corners_ = anchor.corners.size();
     RegisteredFrame result;
@@ -157,11 +163,10 @@ RegisteredFrame Registrar::repeatedFrame(const Frame& frame) {
 }
 
 std::vector<cv::Matx33d> Registrar::predictionsFor(const Anchor& anchor) const {
-    // After frozen frames the camera either went on meanwhile or stood still with them.
+    // Over frozen and missing frames the camera either went on or stood still with them.
     std::vector<cv::Matx33d> predictions{scaledToOne(motion_ * anchor.latest_from_anchor)};
-    if (repeated_ > 0) {
-        predictions.push_back(scaledToOne(powerOf(motion_, std::min(repeated_, 20) + 1) * anchor.latest_from_anchor));
-    }
+    if (const int most = mostPassedSince(anchor); most > 1)
+        predictions.push_back(scaledToOne(powerOf(motion_, std::min(most, 21)) * anchor.latest_from_anchor));
     predictions.push_back(anchor.latest_from_anchor);
     if (anchor.frames_ago > 0) predictions.push_back(cv::Matx33d::eye());
     predictions.erase(std::remove_if(predictions.begin(), predictions.end(),
@@ -169,6 +174,12 @@ std::vector<cv::Matx33d> Registrar::predictionsFor(const Anchor& anchor) const {
                       predictions.end());
     if (predictions.empty()) predictions.push_back(cv::Matx33d::eye());
     return predictions;
+}
+
+int Registrar::mostPassedSince(const Anchor& anchor) const {
+    const int shown = repeated_ + 1;
+    const int by_clock = framesByClock(current_time_us_ - anchor.time_us, scale_.frame_rate_hz);
+    return anchor.frames_ago == 0 ? std::max(shown, by_clock) : shown;
 }
 
 void Registrar::trackMovers(const Anchor& anchor, const cv::Matx33d& start, double noise, Match& match) const {
@@ -185,9 +196,10 @@ void Registrar::trackMovers(const Anchor& anchor, const cv::Matx33d& start, doub
         }
         return movers.all;
     };
-    if (repeated_ > 0 && anchor.frames_ago == 0) {
-        for (const int elapsed : framesPassedBy(start, recent_, repeated_, anchor.pyramid.size()))
-            attempt(elapsed, elapsed == 1 ? repeated_ + 1 : 1);
+    const int most = mostPassedSince(anchor);
+    if (most > 1 && anchor.frames_ago == 0) {
+        for (const int elapsed : framesPassedBy(start, recent_, repeated_, most, anchor.pyramid.size()))
+            attempt(elapsed, elapsed == 1 ? most : 1);
         return;
     }
     const int all = attempt(1, 2);
@@ -296,6 +308,7 @@ RegisteredFrame Registrar::registeredFrame(const Frame& frame, Anchor anchor, co
     anchor.latest_from_anchor = cv::Matx33d::eye();
     anchor.frames_ago = 0;
     anchor.frame = frame.index;
+    anchor.time_us = frame.time_us;
     replenish(anchor, times);
     usual_corners_ = 0.9 * usual_corners_ + 0.1 * anchor.corners.size();
 
@@ -313,7 +326,7 @@ RegisteredFrame Registrar::registeredFrame(const Frame& frame, Anchor anchor, co
 }
 
 RegisteredFrame Registrar::failedFrame(const Frame& frame, RegistrationFailure failure, StageTimes& times) {
-    Anchor fresh{current_, CornerSet(tracker_.window()), current_noise_, cv::Matx33d::eye(), 0, frame.index};
+    Anchor fresh = freshAnchor(frame);
     replenish(fresh, times);
     graphics_.loseWay();
     RegisteredFrame result;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <optional>
 #include <string>
@@ -52,6 +53,7 @@ class Registrar {
         cv::Matx33d latest_from_anchor = cv::Matx33d::eye();  ///< to the newest frame handed out; a guess if not that
         int frames_ago = 0;                                   ///< how long that is after the anchor
         FrameIndex frame = 0;                                 ///< whose picture it is
+        std::int64_t time_us = 0;                             ///< of that frame
 
         template <class Archive>
         void transfer(Archive& archive);
@@ -63,6 +65,8 @@ class Registrar {
         int elapsed = 1;  ///< Registration::elapsed
     };
 
+    /// The picture in hand, without corners.
+    Anchor freshAnchor(const Frame& frame) const;
     RegisteredFrame firstFrame(const Frame& frame, StageTimes& times);
     RegisteredFrame repeatedFrame(const Frame& frame);
     RegisteredFrame registeredFrame(const Frame& frame, Anchor anchor, const Match& match, StageTimes& times);
@@ -72,6 +76,9 @@ class Registrar {
     /// Follows the corners of a picture into the one in hand, and tells over how many frames they have moved on.
     void trackMovers(const Anchor& anchor, const cv::Matx33d& start, double noise, Match& match) const;
     std::vector<cv::Matx33d> predictionsFor(const Anchor& anchor) const;
+    /// Over how many frames everything may have moved on from an anchor that is the frame before, or the last one
+    /// before frozen ones, to the picture in hand: what the clock says, or else one for each of those.
+    int mostPassedSince(const Anchor& anchor) const;
     void replenish(Anchor& anchor, StageTimes& times);
     /// Sets what follows from the scale when the camera has zoomed so far.
     void zoomTo(double zoom);
@@ -90,6 +97,7 @@ class Registrar {
     std::optional<Anchor> older_;   ///< the last good picture before frames that failed
     ImagePyramid current_;          ///< of the frame in hand
     double current_noise_ = 1;
+    std::int64_t current_time_us_ = 0;
     cv::Matx33d motion_ = cv::Matx33d::eye();  ///< last measured motion per frame
     std::deque<cv::Matx33d> recent_;           ///< the last ones, newest last
     int repeated_ = 0;                         ///< frozen frames since the last real one

@@ -80,7 +80,7 @@ void Registrar::Anchor::transfer(Archive& archive) {
         archive.picture(frame, headerOf(pyramid.level(0)));
     }
     corners.transfer(archive);
-    archive(noise, latest_from_anchor, frames_ago);
+    archive(noise, latest_from_anchor, frames_ago, time_us);
 }
 
 template <class Archive>

@@ -87,6 +87,14 @@ TEST(ScaleEstimation, findsTheScaleOfARenderedSceneAndIsWideWhereFewVehiclesDriv
     EXPECT_GT(estimate->uncertainty, 1.3);
 }
 
+TEST(ScaleEstimation, findsTheScaleInAFewPicturesAtTwoASecond) {
+    EYRIE_NEED_SHARED_DATA("kit_ais_crossroad");
+    const auto source = sharedSource("kit_ais_crossroad/img", 2);
+    const auto estimate = lookAt(*source, wholeOf(*source), {});
+    ASSERT_TRUE(estimate);
+    EXPECT_NEAR(estimate->gsd_m_per_px, 0.13, kAllowed * 0.13);
+}
+
 TEST(ScaleEstimation, speedsSayNothingWhereNobodyKnowsTheFrameRate) {
     const auto scene = openScene("stops");
     PartWithoutScale part(*scene, {0, 0, 200, 300});

@@ -115,6 +115,22 @@ TEST(SlowLooks, ForAViewAskInEveryFrameFromTheThirteenthOnAboutAnyScale) {
     for (const Stretch& stretch : look.stretches) EXPECT_EQ(stretch.count, 40);
 }
 
+TEST(SlowLooks, InAShortVideoAskInItsSecondHalfForASlopeAndInAllButTheFirstThirdForAView) {
+    test::MemorySource source = manySizes();
+    const SceneScale scale{0.2, 25, true};
+    const SlopeLook slope = lookForSlope(source, {2, 21}, {}, scale, {});
+    const auto for_slope = [](int frame) { return frame == 10 || frame == 15 || frame == 19; };
+    expectSame(slope.votes, slope.camera, slowLook(source, {{2, 21}}, for_slope, scale, {0.2 / 3.5, 0.2 * 3.5}));
+    EXPECT_FALSE(slope.votes.empty());
+
+    const ViewLook view = lookForView(source, {2, 21}, {}, 25, {});
+    SceneScale linked;
+    linked.gsd_m_per_px = 0.1;
+    expectSame(view.votes, view.camera,
+               slowLook(source, {{2, 21}}, [](int frame) { return frame >= 6; }, linked, {0.02, 0.6}));
+    EXPECT_FALSE(view.votes.empty());
+}
+
 TEST(SlowLooks, ForAViewTakeStretchesAsOneWhereTheyTouch) {
     const auto stretches = [](int frames) {
         test::MemorySource source(frames, {64, 48}, [](int) { return cv::Mat(48, 64, CV_8UC1, cv::Scalar(90)); });

@@ -241,6 +241,17 @@ TEST_F(Video, VariableFrameRateKeepsItsTimes) {
     }
 }
 
+TEST_F(Video, MissingPicturesDoNotChangeItsRate) {
+    VideoWriter writer(folder_ / "a.mkv", {160, 64}, {});
+    for (int shown = 0; shown < 40; ++shown)
+        if (shown % 5 != 2) writer.write(test::numberedImage(shown), shown * 40'000);
+    writer.finish();
+    const auto source = open(folder_ / "a.mkv");
+    EXPECT_EQ(source->info().frame_count, 32);
+    EXPECT_NEAR(source->info().frame_rate_hz, 25, 0.05);
+    EXPECT_EQ(source->timeOf(2), 120'000);
+}
+
 TEST_F(Video, AGivenFrameRateReplacesItsOwn) {
     test::writeNumberedVideo(folder_ / "a.mp4", 5);
     const auto source = open(folder_ / "a.mp4", 2.5);

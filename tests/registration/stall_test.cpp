@@ -33,6 +33,7 @@ struct Stall {
     bool goes_on = true;
     bool repeated = true;  ///< the picture that stands is shown; else it is missing
     bool hidden = false;   ///< the car, in the next frame
+    bool told = false;     ///< the clock goes on while a picture is missing
 
     RegisteredFrame after() const {
         test::Flight flight;
@@ -57,8 +58,10 @@ struct Stall {
             EXPECT_EQ(same.registration.state, RegistrationState::frozen);
             EXPECT_EQ(same.registration.framesPassed(), 0);
         }
-        if (!repeated) frame -= standing;
-        return registrar.next(test::frameOf(frame, hidden ? flight.picture() : show()));
+        Frame next = test::frameOf(frame, hidden ? flight.picture() : show());
+        if (!repeated) next.index -= standing;
+        if (!told) next.time_us = test::frameOf(next.index, {}).time_us;
+        return registrar.next(next);
     }
 };
 
@@ -103,6 +106,28 @@ TEST(MissingPictures, AreToldByWhatDrives) {
 
 TEST(MissingPictures, AreNotSupposedWhereAVehicleIsHidden) {
     EXPECT_EQ(passed({cv::Matx33d::eye(), 4, 0, true, false, true}), 1);
+}
+
+TEST(MissingPictures, AreToldByTheClockWhereNothingElseTells) {
+    const auto missed = [](int missing, bool told) {
+        return passed({.standing = missing, .goes_on = true, .repeated = false, .told = told});
+    };
+    for (const int missing : {1, 2, 7, 20}) {
+        SCOPED_TRACE(missing);
+        EXPECT_EQ(missed(missing, true), missing + 1);
+        EXPECT_EQ(missed(missing, false), 1);
+    }
+}
+
+TEST(MissingPictures, ToldByTheClockAreBelievedOnlyWhereTheWorldWentOn) {
+    const cv::Matx33d flying = test::cameraMotion(test::kSize, 2.5, -1.2, 0.1);
+    for (const bool goes_on : {true, false}) {
+        SCOPED_TRACE(goes_on);
+        Stall flight{.camera = flying, .standing = 9, .goes_on = goes_on, .repeated = false, .told = true};
+        EXPECT_EQ(passed(flight), goes_on ? 10 : 1);
+        Stall hovering{.speed = 4, .standing = 9, .goes_on = goes_on, .repeated = false, .told = true};
+        EXPECT_EQ(passed(hovering), goes_on ? 10 : 1);
+    }
 }
 
 TEST(Stall, LosesNoCornerOfWhatDroveOn) {

@@ -14,7 +14,7 @@
 namespace eyrie {
 namespace {
 
-constexpr std::uint32_t kFormat = 9;  ///< counts up with every change of what any stage keeps
+constexpr std::uint32_t kFormat = 10;  ///< counts up with every change of what any stage keeps
 
 /// What must be the same for a state to be of use.
 std::string conditions(const ChainOptions& options, const SceneScale& scale) {

@@ -11,8 +11,12 @@
 namespace eyrie {
 namespace {
 
-constexpr int kSettledFrames = 14;  ///< until tracks have formed
-constexpr std::size_t kFewestStates = 8;
+/// Of a look: until tracks have formed, but …
+constexpr double kSettling = 0.35;
+constexpr int kSettlingFrames = 5;  ///< … so many frames at least
+/// Of a look, in which a track has to be seen, but …
+constexpr double kFewestSeen = 0.2;
+constexpr int kFewestStates = 3;  ///< … in so many frames at least
 constexpr double kAtTrack = 0.5;  ///< of its length, from which a detection is off its middle at most
 
 /// Whether the classifier takes what is at a track's place for a whole vehicle.
@@ -46,6 +50,8 @@ ScaleOutcome outcomeUnder(int count, const FrameOfLook& frame_of, const ChainOpt
     ScaleOutcome outcome;
     Chain chain(options, scale);
     std::map<TrackId, Seen> tracks;
+    const int settled = std::max(kSettlingFrames, static_cast<int>(std::lround(kSettling * count)));
+    const int fewest = std::max(kFewestStates, static_cast<int>(std::lround(kFewestSeen * count)));
     for (int i = 0; i < count && !stop.stop_requested(); ++i) {
         const FrameResult result = chain.next(frame_of(i));
         tell();
@@ -55,7 +61,7 @@ ScaleOutcome outcomeUnder(int count, const FrameOfLook& frame_of, const ChainOpt
             ++outcome.looks;
             outcome.decision += detection.score;
         }
-        if (i < kSettledFrames) continue;
+        if (i < settled) continue;
         for (const auto& track : result.tracks) {
             if (track.status != TrackStatus::confirmed) continue;
             const SceneScale here = scale.at(track.box.centre);
@@ -67,8 +73,8 @@ ScaleOutcome outcomeUnder(int count, const FrameOfLook& frame_of, const ChainOpt
         }
     }
     for (auto& [id, seen] : tracks) {
-        if (seen.lengths.size() < kFewestStates) continue;
-        const double whole = seen.looked_whole / static_cast<double>(count - kSettledFrames);
+        if (std::ssize(seen.lengths) < fewest) continue;
+        const double whole = seen.looked_whole / static_cast<double>(count - settled);
         ++outcome.tracks;
         outcome.whole_tracks += whole;
         if (!isCarSized(medianOf(seen.lengths), medianOf(seen.widths))) continue;

@@ -1,7 +1,6 @@
 #include "chain/scale/slope_estimation.h"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 
 #include "chain/scale/look_progress.h"
@@ -15,12 +14,12 @@ namespace {
 
 constexpr int kSlopeFrames = 34;             ///< of a stretch
 constexpr int kStretches = 3;                ///< at most: start, middle and end
-constexpr std::array kLooks{17, 25, 33};     ///< frames of a stretch in which is looked; vehicles moved on in between
 constexpr double kWidestRange = 3.5;         ///< factor by which the scale may be finer or coarser anywhere
 constexpr std::size_t kPlentyOfVotes = 100;  ///< with which no other stretch is looked at
 
-bool isLookedAt(int frame) {
-    return std::find(kLooks.begin(), kLooks.end(), frame) != kLooks.end();
+/// Whether a frame of a stretch is looked at: three of its second half, in between which vehicles moved on.
+bool isLookedAt(int frame, int frames_of_stretch) {
+    return frame == frames_of_stretch / 2 || frame == frames_of_stretch * 3 / 4 || frame == frames_of_stretch - 1;
 }
 
 }  // namespace
@@ -43,7 +42,9 @@ SlopeLook lookForSlope(FrameSource& source, FrameRange range, const ChainOptions
     for (const FrameIndex first : startsOfLooks(range.first, last, kSlopeFrames)) {
         if (first <= looked_to || look.votes.size() >= kPlentyOfVotes || stop.stop_requested()) continue;
         looked_to = std::min(last, first + kSlopeFrames - 1);
-        const StretchLook found = looker->look(source, {first, looked_to - first + 1}, isLookedAt, stop, progress);
+        const int frames = looked_to - first + 1;
+        const auto counts = [frames](int frame) { return isLookedAt(frame, frames); };
+        const StretchLook found = looker->look(source, {first, frames}, counts, stop, progress);
         look.votes.insert(look.votes.end(), found.votes.begin(), found.votes.end());
         look.camera.add(found.steps);
     }

@@ -11,7 +11,7 @@
 namespace eyrie {
 namespace {
 
-constexpr int kUntilMoving = 12;            ///< frames of a stretch until what moves has vectors
+constexpr int kUntilMoving = 12;            ///< frames of a stretch of a look's length until what moves has vectors
 constexpr double kLinkedAt = 0.1;           ///< m/px at which they are linked: no car falls to pieces …
 constexpr ScaleRange kAnyScale{0.02, 0.6};  ///< … however near or far it is
 constexpr double kErrorOfLook = 0.11;       ///< standard error of the logarithm of the scale …
@@ -55,7 +55,8 @@ ViewLook lookForView(FrameSource& source, FrameRange range, const ChainOptions& 
     const StretchLooker looker(options, scale, kAnyScale);
     LookProgress progress(told, framesOf(look.stretches));
     for (Stretch& stretch : look.stretches) {
-        const auto counts = [](int frame) { return frame >= kUntilMoving; };
+        const int until_moving = kUntilMoving * std::min(stretch.count, kFramesOfLook) / kFramesOfLook;
+        const auto counts = [until_moving](int frame) { return frame >= until_moving; };
         const StretchLook found = looker.look(source, stretch, counts, stop, progress);
         stretch.count = found.frames;
         look.votes.insert(look.votes.end(), found.votes.begin(), found.votes.end());

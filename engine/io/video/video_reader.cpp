@@ -4,8 +4,8 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
+#include "core/clock_step.h"
 #include "core/error.h"
-#include "io/clock_jumps.h"
 #include "io/tables/size_text.h"
 #include "io/video/index_cache.h"
 
@@ -36,7 +36,8 @@ struct FrameTiming {
     bool is_variable = false;
 };
 
-/// A few lost frames do not change the rate: it is the mean over the usual steps if nearly all steps are that.
+/// Lost frames do not change the rate: it is the mean over the usual steps if nearly all steps are that, or are whole
+/// multiples of it and fewer.
 FrameTiming timingOf(const std::vector<std::int64_t>& ticks, double tick_s) {
     if (ticks.size() < 2) return {};
     std::vector<double> steps_s;
@@ -49,12 +50,16 @@ FrameTiming timingOf(const std::vector<std::int64_t>& ticks, double tick_s) {
     const double tolerance_s = std::max(0.0015, 0.05 * usual_s);
     double sum_s = 0;
     std::size_t usual_steps = 0;
+    std::size_t whole_steps = 0;
     for (const double step_s : steps_s) {
-        if (std::abs(step_s - usual_s) > tolerance_s) continue;
+        const double frames = std::max(1.0, std::round(step_s / usual_s));
+        if (std::abs(step_s - frames * usual_s) > tolerance_s) continue;
+        ++whole_steps;
+        if (frames > 1) continue;
         sum_s += step_s;
         ++usual_steps;
     }
-    if (usual_steps * 10 < steps_s.size() * 9) {
+    if (usual_steps * 3 < steps_s.size() * 2 || whole_steps * 10 < steps_s.size() * 9) {
         sum_s = 0;
         std::size_t steps = 0;
         for (const double step_s : steps_s) {

@@ -40,15 +40,15 @@ cv::Matx33d meanOf(const std::deque<cv::Matx33d>& motions) {
 }  // namespace
 
 std::vector<int> framesPassedBy(const cv::Matx33d& motion, const std::deque<cv::Matx33d>& recent, int repeated,
-                                cv::Size image) {
+                                int most, cv::Size image) {
     // Either the pictures in between were lost, or the video only paused.
-    const int most = repeated + 1;
     const cv::Matx33d usual = meanOf(recent);
     const cv::Matx33d went_on = powerOf(usual, most);
     if (apart(usual, went_on, image) >= kTellingPx)
         return {apart(motion, went_on, image) < apart(motion, usual, image) ? most : 1};
-    // A camera at rest tells nothing. Single pictures are repeated to fill up a rate.
-    return repeated >= kLongStall ? std::vector{most, 1} : std::vector{1, most};
+    // A camera at rest tells nothing. Single pictures are repeated to fill up a rate; a clock that goes on is right.
+    const bool missing = most > repeated + 1;
+    return missing || repeated >= kLongStall ? std::vector{most, 1} : std::vector{1, most};
 }
 
 TellingMovers moversAfter(int elapsed, int other, const CornerSet& set, const std::vector<TrackedPosition>& found,

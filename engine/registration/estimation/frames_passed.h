@@ -10,11 +10,11 @@
 
 namespace eyrie {
 
-/// Over how many frames everything may have moved on to a picture that comes after `repeated` frozen ones; the
-/// likeliest first, alone where the camera tells. `motion`: from the picture before; `recent`: what the camera did from
-/// frame to frame before that.
+/// Over how many frames everything may have moved on to a picture that comes after `repeated` frozen ones, or after
+/// missing ones: `most` of them, or one; the likeliest first, alone where the camera tells. `motion`: from the last
+/// other picture; `recent`: what the camera did from frame to frame before that.
 std::vector<int> framesPassedBy(const cv::Matx33d& motion, const std::deque<cv::Matx33d>& recent, int repeated,
-                                cv::Size image);
+                                int most, cv::Size image);
 
 /// Corners that moved by themselves before, fast enough to tell how many frames have passed.
 struct TellingMovers {

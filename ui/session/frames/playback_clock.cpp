@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "io/clock_jumps.h"
+#include "core/clock_step.h"
 
 namespace eyrie::ui {
 
