@@ -7,7 +7,7 @@
 #include "cli/arguments/input.h"
 #include "cli/arguments/video_arguments.h"
 #include "core/error.h"
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "io/video/parts/part_list.h"
 #include "store/project/video_start.h"
 

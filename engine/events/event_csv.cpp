@@ -1,6 +1,6 @@
 #include "events/event_csv.h"
 
-#include "core/time_text.h"
+#include "core/time/time_text.h"
 #include "events/stored_events.h"
 #include "io/atomic_file.h"
 #include "io/tables/csv_reader.h"

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "core/clock_step.h"
-#include "core/time_text.h"
+#include "core/time/clock_step.h"
+#include "core/time/time_text.h"
 
 namespace eyrie {
 namespace {

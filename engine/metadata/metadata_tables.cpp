@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "io/atomic_file.h"
 #include "io/tables/number_text.h"
 

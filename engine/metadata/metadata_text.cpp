@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "metadata/metadata_tag.h"
 
 namespace eyrie {

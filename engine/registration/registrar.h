@@ -80,6 +80,8 @@ class Registrar {
     /// before frozen ones, to the picture in hand: what the clock says, or else one for each of those.
     int mostPassedSince(const Anchor& anchor) const;
     void replenish(Anchor& anchor, StageTimes& times);
+    /// Notes how far the pictures are ahead of the clock when one was handed out after so many frozen ones.
+    void followClock(const Frame& frame, const Registration& registration, int repeated_before);
     /// Sets what follows from the scale when the camera has zoomed so far.
     void zoomTo(double zoom);
     void checkFrame(const Frame& frame) const;
@@ -103,6 +105,8 @@ class Registrar {
     int repeated_ = 0;                         ///< frozen frames since the last real one
     double usual_corners_ = 0;                 ///< how many corners the video's pictures carry
     FrameIndex last_frame_ = 0;
+    std::int64_t last_time_us_ = 0;
+    double ahead_of_clock_ = 0;  ///< frames, ≥ 0: of pictures that came too soon, as in bursts
     CornerId next_id_ = 0;
 };
 

@@ -98,7 +98,8 @@ void Registrar::transfer(Archive& archive) {
     anchor(older_);
     graphics_.transfer(archive);
     zoom_.transfer(archive);
-    archive(repetition_, motion_, recent_, repeated_, usual_corners_, last_frame_, next_id_);
+    archive(repetition_, motion_, recent_, repeated_, usual_corners_, last_frame_, last_time_us_, ahead_of_clock_,
+            next_id_);
     for (const auto* one : {&anchor_, &older_}) {
         archive.require(!*one || (*one)->corners.size() == 0 || (*one)->corners.corners.back().id < next_id_,
                         "a corner from the future");

@@ -7,7 +7,7 @@
 
 #include "chain/recording/run_recorder.h"
 #include "core/error.h"
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "io/video/video_writer.h"
 #include "support/live_sender.h"
 #include "support/moving_scene.h"

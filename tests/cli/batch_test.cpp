@@ -11,7 +11,7 @@
 #include <sstream>
 
 #include "cli/batch/batch_inputs.h"
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "io/video/video_writer.h"
 #include "store/database/file_lock.h"
 #include "store/project/project_file.h"

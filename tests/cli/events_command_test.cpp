@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "cli/events_folder.h"
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "store/project/video_start.h"
 #include "store/review/review_store.h"
 

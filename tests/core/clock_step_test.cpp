@@ -1,4 +1,4 @@
-#include "core/clock_step.h"
+#include "core/time/clock_step.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "formats/sample_labels.h"
 #include "formats/track_world.h"
 #include "io/tables/csv_reader.h"

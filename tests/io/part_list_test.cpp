@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "io/file_digest.h"
 #include "io/numbered_video.h"
 #include "io/output_files.h"

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "metadata/collected.h"
 
 namespace eyrie::klv_values_test {

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "core/error.h"
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "store/runs/result_writer.h"
 #include "store/samples.h"
 #include "support/replaced_tracks.h"

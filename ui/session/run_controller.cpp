@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "chain/scale/scale_estimation.h"
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "metadata/metadata_scale.h"
 
 namespace eyrie::ui {

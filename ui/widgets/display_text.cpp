@@ -6,8 +6,8 @@
 
 #include "core/project_name.h"
 #include "core/text.h"
-#include "core/time_text.h"
-#include "core/utc_time.h"
+#include "core/time/time_text.h"
+#include "core/time/utc_time.h"
 
 namespace eyrie::ui {
 namespace {

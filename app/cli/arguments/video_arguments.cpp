@@ -7,7 +7,7 @@
 
 #include "cli/reports/figure_text.h"
 #include "core/error.h"
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "core/values/scene_scale.h"
 
 namespace eyrie::cli {

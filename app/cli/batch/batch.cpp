@@ -10,7 +10,7 @@
 #include "cli/command.h"
 #include "core/error.h"
 #include "core/project_name.h"
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "io/file_digest.h"
 #include "io/folder.h"
 #include "io/video/image_sequence.h"

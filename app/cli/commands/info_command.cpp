@@ -17,7 +17,7 @@
 #include "cli/reports/comparison/stored_comparison.h"
 #include "core/error.h"
 #include "core/geometry/angle.h"
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "io/video/frame_source.h"
 #include "io/video/parts/part_list.h"
 #include "io/video/parts/part_source.h"

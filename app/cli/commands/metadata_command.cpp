@@ -13,7 +13,7 @@
 #include "cli/reports/console_progress.h"
 #include "cli/reports/figure_text.h"
 #include "core/error.h"
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "io/atomic_file.h"
 #include "io/tables/number_text.h"
 #include "io/video/parts/part_list.h"

@@ -15,7 +15,7 @@
 #include "cli/reports/console_progress.h"
 #include "cli/reports/pdf_report.h"
 #include "core/error.h"
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "io/file_digest.h"
 #include "report/evaluation_report.h"
 #include "report/review/review_report.h"

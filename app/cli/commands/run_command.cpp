@@ -23,7 +23,7 @@
 #include "cli/reports/run_report.h"
 #include "core/error.h"
 #include "core/project_name.h"
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "io/folder.h"
 #include "io/live/live_address.h"
 #include "io/tables/box_csv.h"

@@ -13,7 +13,7 @@
 #include "cli/interrupt.h"
 #include "cli/reports/console_progress.h"
 #include "core/error.h"
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "learning/training/background_mining.h"
 #include "learning/training/labelled_frames.h"
 #include "learning/training/trainer.h"

@@ -14,7 +14,7 @@
 #include "chain/scale/scale_estimation.h"
 #include "core/error.h"
 #include "core/project_name.h"
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "io/live/live_address.h"
 #include "io/output_files.h"
 #include "io/tables/number_text.h"

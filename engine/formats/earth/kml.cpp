@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "core/text.h"
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "formats/earth/placed_tracks.h"
 #include "io/atomic_file.h"
 #include "io/tables/number_text.h"

@@ -1,6 +1,6 @@
 #include <limits>
 
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "formats/earth/placed_tracks.h"
 #include "io/atomic_file.h"
 #include "io/tables/number_text.h"

@@ -1,5 +1,5 @@
 #include "core/geometry/angle.h"
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "formats/earth/placed_tracks.h"
 #include "io/atomic_file.h"
 #include "io/tables/csv_reader.h"

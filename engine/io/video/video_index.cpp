@@ -6,7 +6,7 @@
 #include <unordered_set>
 
 #include "core/error.h"
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "io/video/video_decoder.h"
 
 namespace eyrie {

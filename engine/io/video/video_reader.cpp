@@ -4,8 +4,8 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "core/clock_step.h"
 #include "core/error.h"
+#include "core/time/clock_step.h"
 #include "io/tables/size_text.h"
 #include "io/video/index_cache.h"
 

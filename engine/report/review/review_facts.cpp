@@ -1,4 +1,4 @@
-#include "core/time_text.h"
+#include "core/time/time_text.h"
 #include "io/tables/number_text.h"
 #include "report/report_parts.h"
 #include "report/review/review_parts.h"

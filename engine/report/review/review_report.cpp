@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "core/time_text.h"
-#include "core/utc_time.h"
+#include "core/time/time_text.h"
+#include "core/time/utc_time.h"
 #include "georeference/video_world.h"
 #include "io/tables/number_text.h"
 #include "metadata/metadata_scale.h"

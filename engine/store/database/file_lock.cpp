@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 
 namespace eyrie {
 namespace {

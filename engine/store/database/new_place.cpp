@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "core/error.h"
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "store/health/file_check.h"
 
 namespace eyrie {

@@ -2,7 +2,7 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "store/backup/database_copy.h"
 #include "store/database/rows.h"
 #include "store/health/report_text.h"

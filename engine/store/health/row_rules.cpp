@@ -5,7 +5,7 @@
 
 #include "core/error.h"
 #include "core/review/track_correction.h"
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "store/details/squeezed_bytes.h"
 #include "store/labels/packed_labels.h"
 #include "store/project/sequence_rows.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "store/database/rows.h"
 #include "store/journal/journalled_store.h"
 

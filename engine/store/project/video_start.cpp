@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/error.h"
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "store/database/rows.h"
 
 namespace eyrie {

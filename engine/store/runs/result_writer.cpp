@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "core/values/last_frame.h"
 #include "store/database/freed_space.h"
 #include "store/database/rows.h"

@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "store/database/freed_space.h"
 #include "store/database/rows.h"
 #include "store/project/sequence_rows.h"

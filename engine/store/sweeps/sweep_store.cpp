@@ -2,7 +2,7 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "store/database/database_error.h"
 #include "store/database/rows.h"
 

@@ -1,4 +1,4 @@
-#include "core/time_text.h"
+#include "core/time/time_text.h"
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <utility>
 
-#include "core/time_text.h"
-#include "core/utc_time.h"
+#include "core/time/time_text.h"
+#include "core/time/utc_time.h"
 
 namespace eyrie::ui {
 

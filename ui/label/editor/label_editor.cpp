@@ -7,7 +7,7 @@
 
 #include "annotation/edits/object_pieces.h"
 #include "annotation/review/proposals.h"
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "label/label_classes.h"
 #include "label/object_colours.h"
 

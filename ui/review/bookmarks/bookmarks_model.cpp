@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/time_text.h"
+#include "core/time/time_text.h"
 #include "widgets/display_text.h"
 #include "widgets/tables/table_roles.h"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/geometry/place_text.h"
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "metadata/metadata_text.h"
 #include "widgets/display_text.h"
 

@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "core/geometry/angle.h"
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "events/stored_events.h"
 #include "session/background/pace.h"
 #include "store/labels/annotation_store.h"

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/time_text.h"
+#include "core/time/time_text.h"
 #include "widgets/display_text.h"
 
 namespace eyrie::ui {

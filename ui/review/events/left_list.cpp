@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/time_text.h"
+#include "core/time/time_text.h"
 #include "correction/corrected_run.h"
 #include "review/events/event_review.h"
 #include "review/events/event_text.h"

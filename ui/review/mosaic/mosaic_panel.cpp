@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "canvas/overlay_settings.h"
-#include "core/time_text.h"
+#include "core/time/time_text.h"
 #include "review/mosaic/coverage_legend.h"
 #include "review/mosaic/mosaic_view.h"
 #include "review/watch/watched_ground.h"

@@ -3,7 +3,7 @@
 #include <QFileInfo>
 
 #include "canvas/video_view.h"
-#include "core/time_text.h"
+#include "core/time/time_text.h"
 #include "session/project_session.h"
 
 namespace eyrie::ui {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/clock_step.h"
+#include "core/time/clock_step.h"
 
 namespace eyrie::ui {
 

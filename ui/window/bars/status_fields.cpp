@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "core/geometry/place_text.h"
-#include "core/time_text.h"
+#include "core/time/time_text.h"
 #include "widgets/display_text.h"
 #include "widgets/wiring.h"
 

@@ -5,7 +5,7 @@
 #include <QUrl>
 
 #include "core/error.h"
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "io/file_digest.h"
 #include "report/review/review_report.h"
 #include "review/events/event_review.h"

@@ -19,7 +19,7 @@
 #include <future>
 
 #include "core/error.h"
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "io/atomic_file.h"
 #include "io/output_files.h"
 #include "window/docks/report_pages.h"

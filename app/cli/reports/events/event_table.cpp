@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <map>
 
-#include "core/time_text.h"
+#include "core/time/time_text.h"
 
 namespace eyrie::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <string>
 
-#include "core/time_text.h"
+#include "core/time/time_text.h"
 #include "io/atomic_file.h"
 #include "io/tables/number_text.h"
 

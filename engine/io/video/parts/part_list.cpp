@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "core/utc_time.h"
+#include "core/time/utc_time.h"
 #include "io/atomic_file.h"
 #include "io/file_digest.h"
 #include "io/folder.h"
