@@ -81,6 +81,7 @@ void Registrar::Anchor::transfer(Archive& archive) {
     }
     corners.transfer(archive);
     archive(noise, latest_from_anchor, frames_ago, time_us);
+    archive.require(time_us >= 0, "a picture before the video");
 }
 
 template <class Archive>
@@ -100,6 +101,7 @@ void Registrar::transfer(Archive& archive) {
     zoom_.transfer(archive);
     archive(repetition_, motion_, recent_, repeated_, usual_corners_, last_frame_, last_time_us_, ahead_of_clock_,
             next_id_);
+    archive.require(last_time_us_ >= 0 && ahead_of_clock_ >= 0 && ahead_of_clock_ < 1e3, "a clock that cannot be");
     for (const auto* one : {&anchor_, &older_}) {
         archive.require(!*one || (*one)->corners.size() == 0 || (*one)->corners.corners.back().id < next_id_,
                         "a corner from the future");

@@ -178,7 +178,7 @@ TEST(ScaleLooks, TellHowFastTheyAre) {
 TEST(ScaleLooks, CountWhatTheChainFindsAndTracksThatHaveSettled) {
     ChainOptions options = lookingOptions({});
     const SceneScale scale{0.2, 25, false};
-    test::MemorySource source = sceneOf(40);
+    test::MemorySource source = sceneOf(60);
     const auto outcomeOf = [&](int count) {
         int told = 0;
         const auto outcome = outcomeUnder(
@@ -193,7 +193,7 @@ TEST(ScaleLooks, CountWhatTheChainFindsAndTracksThatHaveSettled) {
         bool looked_whole = false;
     };
     std::map<TrackId, Seen> seen;
-    for (int i = 0; i < 40; ++i) {
+    for (int i = 0; i < 60; ++i) {
         const FrameResult result = chain.next(source.read(i, false));
         for (const Detection& detection : result.detections) {
             ++detections;
@@ -221,7 +221,7 @@ TEST(ScaleLooks, CountWhatTheChainFindsAndTracksThatHaveSettled) {
         ++cars;
         if (of_track.looked_whole) speeds.push_back(medianOf(of_track.speeds));
     }
-    const ScaleOutcome outcome = outcomeOf(40);
+    const ScaleOutcome outcome = outcomeOf(60);
     EXPECT_GT(outcome.detections, 10);
     EXPECT_EQ(outcome.detections, detections);
     EXPECT_EQ(outcome.looks, whole);
@@ -238,7 +238,7 @@ TEST(ScaleLooks, CountWhatTheChainFindsAndTracksThatHaveSettled) {
     std::stop_source stopped;
     stopped.request_stop();
     const auto frame_of = [&](int i) { return source.read(i, false); };
-    EXPECT_EQ(outcomeUnder(40, frame_of, options, scale, stopped.get_token(), [] {}).detections, 0);
+    EXPECT_EQ(outcomeUnder(60, frame_of, options, scale, stopped.get_token(), [] {}).detections, 0);
 }
 
 TEST(ScaleLooks, SpeedsAreThoseOfWhatTheClassifierTookForVehicles) {

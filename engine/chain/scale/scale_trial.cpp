@@ -6,18 +6,18 @@
 #include <vector>
 
 #include "chain/chain.h"
+#include "chain/scale/scale_estimation.h"
 #include "core/robust_statistics.h"
 
 namespace eyrie {
 namespace {
 
-/// Of a look: until tracks have formed, but …
-constexpr double kSettling = 0.35;
-constexpr int kSettlingFrames = 5;  ///< … so many frames at least
-/// Of a look, in which a track has to be seen, but …
-constexpr double kFewestSeen = 0.2;
-constexpr int kFewestStates = 3;  ///< … in so many frames at least
-constexpr double kAtTrack = 0.5;  ///< of its length, from which a detection is off its middle at most
+// Shares of a look; what is longer than one counts as one.
+constexpr double kSettling = 0.35;   ///< until tracks have formed, …
+constexpr int kSettlingFrames = 5;   ///< … but so many frames at least
+constexpr double kFewestSeen = 0.2;  ///< in which a track has to be seen, …
+constexpr int kFewestStates = 3;     ///< … but in so many frames at least
+constexpr double kAtTrack = 0.5;     ///< of its length, from which a detection is off its middle at most
 
 /// Whether the classifier takes what is at a track's place for a whole vehicle.
 bool looksWhole(const OrientedBox& box, const std::vector<Detection>& detections) {
@@ -50,8 +50,9 @@ ScaleOutcome outcomeUnder(int count, const FrameOfLook& frame_of, const ChainOpt
     ScaleOutcome outcome;
     Chain chain(options, scale);
     std::map<TrackId, Seen> tracks;
-    const int settled = std::max(kSettlingFrames, static_cast<int>(std::lround(kSettling * count)));
-    const int fewest = std::max(kFewestStates, static_cast<int>(std::lround(kFewestSeen * count)));
+    const int look = std::min(count, kFramesOfLook);
+    const int settled = std::max(kSettlingFrames, static_cast<int>(std::lround(kSettling * look)));
+    const int fewest = std::max(kFewestStates, static_cast<int>(std::lround(kFewestSeen * look)));
     for (int i = 0; i < count && !stop.stop_requested(); ++i) {
         const FrameResult result = chain.next(frame_of(i));
         tell();

@@ -129,6 +129,20 @@ class TimelineAxisTest : public QObject {
         QCOMPARE(labelled, 8);  // from 1.66 s on, every 2 s of 16 s
     }
 
+    void labelsKeepApartWherePicturesAreMissing() {
+        std::vector<std::int64_t> t;
+        for (int i = 0; i < 100; ++i) t.push_back((i + i / 10 * 30) * 40'000);  // ten are there, thirty are not
+        double last_x = -1e9;
+        int labelled = 0;
+        for (const TimelineTick& tick : axis(100).ticks(t, 80)) {
+            if (!tick.labelled) continue;
+            QVERIFY2(tick.x - last_x >= 79, qPrintable(QString::number(tick.x)));
+            last_x = tick.x;
+            ++labelled;
+        }
+        QVERIFY(labelled >= 5);
+    }
+
     void ticksFollowTrueTimesOfAVariableRate() {
         // The second half runs at half the rate: a tick at a frame's time stands at that frame.
         std::vector<std::int64_t> t;

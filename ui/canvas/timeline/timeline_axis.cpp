@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 namespace eyrie::ui {
 
@@ -113,6 +114,7 @@ std::vector<TimelineTick> TimelineAxis::ticks(const std::vector<std::int64_t>& t
     const auto step_us = static_cast<std::int64_t>(std::llround(step_s * 1e6));
     const std::int64_t small_us = std::max<std::int64_t>(1, step_us / 5);
     std::vector<TimelineTick> result;
+    double free_from = -std::numeric_limits<double>::infinity();
     FrameIndex frame = first;
     for (std::int64_t time = (times_us[static_cast<size_t>(first)] + shift_us) / small_us * small_us - shift_us;
          time <= times_us[static_cast<size_t>(last)]; time += small_us) {
@@ -122,7 +124,11 @@ std::vector<TimelineTick> TimelineAxis::ticks(const std::vector<std::int64_t>& t
         const bool has_next = frame + 1 < count_;
         const std::int64_t length = has_next ? times_us[static_cast<size_t>(frame) + 1] - from : 0;
         const double part = length > 0 ? static_cast<double>(time - from) / static_cast<double>(length) : 0;
-        result.push_back({xOf(frame + part), time, (time + shift_us) % step_us == 0});
+        const double x = xOf(frame + part);
+        // Where pictures are missing much time passes on a few pixels.
+        const bool labelled = (time + shift_us) % step_us == 0 && x >= free_from;
+        if (labelled) free_from = x + min_gap_px - 1;
+        result.push_back({x, time, labelled});
     }
     return result;
 }
