@@ -12,6 +12,7 @@
 #include "chain/recording/chain_state.h"
 #include "chain/recording/run_recorder.h"
 #include "chain/scale/scale_estimation.h"
+#include "chain/scale/scale_trial.h"
 #include "core/error.h"
 #include "core/project_name.h"
 #include "core/time/utc_time.h"

@@ -13,9 +13,6 @@
 
 namespace eyrie {
 
-/// Frames of one look; where no more are there, what these show decides.
-inline constexpr int kFramesOfLook = 40;
-
 /// Receives the progress of the look, from one thread at a time, which need not be the one that asked.
 using ScaleProgress = std::function<void(const RunProgress&)>;
 

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "chain/chain.h"
-#include "chain/scale/scale_estimation.h"
 #include "core/robust_statistics.h"
 
 namespace eyrie {

@@ -14,6 +14,9 @@
 
 namespace eyrie {
 
+/// Frames of one look; where no more are there, what these show decides.
+inline constexpr int kFramesOfLook = 40;
+
 /// The chain that looks: whatever detector the run is to use, here the classifier has to say what is a vehicle.
 ChainOptions lookingOptions(const ChainOptions& options);
 
@@ -26,7 +29,8 @@ std::array<FrameIndex, 3> startsOfLooks(FrameIndex first, FrameIndex last, int f
 /// The frame at a place of a look, from 0.
 using FrameOfLook = std::function<Frame(int)>;
 
-/// What the chain finds in `count` frames under an assumed scale. `tell` is called after every frame.
+/// What the chain finds in `count` frames under an assumed scale, of tracks in those from the time on when some have
+/// formed: the fifteenth of a full look, earlier in a shorter one. `tell` is called after every frame.
 ScaleOutcome outcomeUnder(int count, const FrameOfLook& frame_of, const ChainOptions& options, const SceneScale& scale,
                           const std::stop_token& stop, const std::function<void()>& tell);
 
