@@ -145,7 +145,8 @@ TEST(RunRecorder, leavesOutFromTheFirstFrameOnWhatTurnsOutToBeDrawnIntoThePictur
         ProjectFile project = ProjectFile::open(folder / name);
         int left_out = 0;
         for (FrameIndex frame = 0; frame < scene.frames; ++frame) {
-            for (const DroppedState& dropped : RunStore(project).frameResult(run.id, frame)->dropped)
+            const auto stored = RunStore(project).frameResult(run.id, frame);
+            for (const DroppedState& dropped : stored->dropped)
                 left_out += dropped.why == TrackDrop::on_graphics && dropped.box.centre.y < 40;
         }
         return left_out;

@@ -90,7 +90,8 @@ TEST_F(TrainCommand, cutsSheetsAsTheModelWantsThem) {
     const auto compared = cli({"classify-test", "--samples", at("sized") + "," + at("other"), "--descriptors", "hog",
                                "--classifiers", "adaboost", "--set", "training.trees=10", "--set", filled, "--json"});
     ASSERT_EQ(compared.exit_code, 0) << compared.errors;
-    for (const auto& source : nlohmann::json::parse(compared.output)["sources"]) EXPECT_EQ(source["vehicles"], 95);
+    const auto table = nlohmann::json::parse(compared.output);
+    for (const auto& source : table["sources"]) EXPECT_EQ(source["vehicles"], 95);
     ASSERT_EQ(train({"--quiet"}).exit_code, 0);
     const auto whole = cli({"classify", "--model", at("m.eyriemodel"), "--patches", at("other"), "--json"});
     EXPECT_EQ(nlohmann::json::parse(whole.output)["vehicles"], 96) << "with the ground around them";

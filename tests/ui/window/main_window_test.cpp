@@ -404,7 +404,7 @@ class MainWindowTest : public QObject {
         window.start(options);
         QVERIFY(waitFor([&] { return window.session().runData() && window.session().currentFrame() >= 21; }));
         window.session().playback().pause();
-        QVERIFY(qAbs(window.canvas().transform().zoom() - 6) < 1e-6);
+        QVERIFY(waitFor([&] { return qAbs(window.canvas().transform().zoom() - 6) < 1e-6; }));
         QVERIFY(window.session().runs().size() == 1);  // a finished run is shown, not made anew
     }
 
