@@ -7,7 +7,6 @@
 
 #include "core/error.h"
 #include "core/stopwatch.h"
-#include "core/time/clock_step.h"
 #include "registration/estimation/frames_passed.h"
 #include "registration/estimation/point_jacobian.h"
 #include "registration/pictures/noise_level.h"
@@ -19,13 +18,11 @@ namespace {
 // A fit on which fewer agree is tried again with any perspective, and given up for one on which clearly more do.
 constexpr double kUnquestionedShare = 0.5;
 constexpr double kClearlyMore = 1.2;
-constexpr double kNearPx = 1;        ///< off the coarse registration, for a corner that surely agrees with it
-constexpr double kFarthestPx = 10;   ///< off the coarse registration, for a corner that was looked for around it
-constexpr std::size_t kRecent = 8;   ///< motions that a camera's usual one is told by: single ones tremble
-constexpr int kFewestTelling = 8;    ///< corners that drive, to ask for missing pictures …
-constexpr int kMostMissing = 3;      ///< … in a row
-constexpr double kMostAhead = 10;    ///< frames by which pictures come too soon …
-constexpr double kStillAhead = 0.9;  ///< … and the share that counts a frame later: rates are not exact
+constexpr double kNearPx = 1;       ///< off the coarse registration, for a corner that surely agrees with it
+constexpr double kFarthestPx = 10;  ///< off the coarse registration, for a corner that was looked for around it
+constexpr std::size_t kRecent = 8;  ///< motions that a camera's usual one is told by: single ones tremble
+constexpr int kFewestTelling = 8;   ///< corners that drive, to ask for missing pictures …
+constexpr int kMostMissing = 3;     ///< … in a row
 
 std::vector<cv::Point2f> positionsOf(const CornerSet& set) {
     std::vector<cv::Point2f> positions;
@@ -48,7 +45,8 @@ Registrar::Registrar(const RegistrationOptions& options, const SceneScale& scale
       detector_(options.corners, scale.zoomed(zoom_before)),
       tracker_(options.tracking, scale.zoomed(zoom_before)),
       graphics_(options.graphics),
-      zoom_(scale, zoom_before) {}
+      zoom_(scale, zoom_before),
+      clock_(scale.frame_rate_hz) {}
 
 void Registrar::zoomTo(double zoom) {
     detector_ = CornerDetector(options_.corners, scale_.zoomed(zoom));
@@ -126,20 +124,9 @@ RegisteredFrame Registrar::next(const Frame& frame, StageTimes* times) {
     const double zoom_before = zoom_.zoom();
     result.registration.zoom = zoom_.next(result.registration, frame.gray.size());
     if (result.registration.zoom != zoom_before) zoomTo(result.registration.zoom);
-    followClock(frame, result.registration, repeated_before);
+    clock_.next(frame.time_us, result.registration, repeated_before);
     last_frame_ = frame.index;
-    last_time_us_ = frame.time_us;
     return result;
-}
-
-void Registrar::followClock(const Frame& frame, const Registration& registration, int repeated_before) {
-    if (registration.state == RegistrationState::first) {
-        ahead_of_clock_ = 0;
-        return;
-    }
-    const int shown = std::max(1, registration.elapsed - repeated_before);
-    const double by_clock = static_cast<double>(frame.time_us - last_time_us_) / 1e6 * scale_.frame_rate_hz;
-    ahead_of_clock_ = kStillAhead * std::clamp(ahead_of_clock_ + shown - by_clock, 0.0, kMostAhead);
 }
 
 Registrar::Anchor Registrar::freshAnchor(const Frame& frame) const {
@@ -194,8 +181,7 @@ std::vector<cv::Matx33d> Registrar::predictionsFor(const Anchor& anchor) const {
 int Registrar::mostPassedSince(const Anchor& anchor) const {
     const int shown = repeated_ + 1;
     if (anchor.frames_ago > 0 || recent_.size() < kRecent) return shown;
-    const auto too_soon_us = std::llround(ahead_of_clock_ / scale_.frame_rate_hz * 1e6);
-    return std::max(shown, framesByClock(current_time_us_ - anchor.time_us - too_soon_us, scale_.frame_rate_hz));
+    return std::max(shown, clock_.mostPassed(anchor.time_us, current_time_us_));
 }
 
 void Registrar::trackMovers(const Anchor& anchor, const cv::Matx33d& start, double noise, Match& match) const {

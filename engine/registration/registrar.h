@@ -10,6 +10,7 @@
 #include "core/values/frame.h"
 #include "core/values/frame_result.h"
 #include "core/values/scene_scale.h"
+#include "registration/clock_follower.h"
 #include "registration/corners/corner_detector.h"
 #include "registration/corners/corner_tracker.h"
 #include "registration/estimation/homography_estimator.h"
@@ -80,8 +81,6 @@ class Registrar {
     /// before frozen ones, to the picture in hand: what the clock says, or else one for each of those.
     int mostPassedSince(const Anchor& anchor) const;
     void replenish(Anchor& anchor, StageTimes& times);
-    /// Notes how far the pictures are ahead of the clock when one was handed out after so many frozen ones.
-    void followClock(const Frame& frame, const Registration& registration, int repeated_before);
     /// Sets what follows from the scale when the camera has zoomed so far.
     void zoomTo(double zoom);
     void checkFrame(const Frame& frame) const;
@@ -94,6 +93,7 @@ class Registrar {
     RepetitionDetector repetition_;
     BurnedInGraphics graphics_;
     ZoomFollower zoom_;
+    ClockFollower clock_;
 
     std::optional<Anchor> anchor_;  ///< the newest usable picture
     std::optional<Anchor> older_;   ///< the last good picture before frames that failed
@@ -105,8 +105,6 @@ class Registrar {
     int repeated_ = 0;                         ///< frozen frames since the last real one
     double usual_corners_ = 0;                 ///< how many corners the video's pictures carry
     FrameIndex last_frame_ = 0;
-    std::int64_t last_time_us_ = 0;
-    double ahead_of_clock_ = 0;  ///< frames, ≥ 0: of pictures that came too soon, as in bursts
     CornerId next_id_ = 0;
 };
 

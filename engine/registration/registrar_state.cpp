@@ -73,6 +73,12 @@ void ZoomFollower::transfer(Archive& archive) {
 }
 
 template <class Archive>
+void ClockFollower::transfer(Archive& archive) {
+    archive(last_time_us_, ahead_);
+    archive.require(last_time_us_ >= 0 && ahead_ >= 0 && ahead_ < 1e3, "a clock that cannot be");
+}
+
+template <class Archive>
 void Registrar::Anchor::transfer(Archive& archive) {
     if constexpr (Archive::reading) {
         pyramid.build(archive.picture(frame, {}));
@@ -99,9 +105,9 @@ void Registrar::transfer(Archive& archive) {
     anchor(older_);
     graphics_.transfer(archive);
     zoom_.transfer(archive);
-    archive(repetition_, motion_, recent_, repeated_, usual_corners_, last_frame_, last_time_us_, ahead_of_clock_,
-            next_id_);
-    archive.require(last_time_us_ >= 0 && ahead_of_clock_ >= 0 && ahead_of_clock_ < 1e3, "a clock that cannot be");
+    archive(repetition_, motion_, recent_, repeated_, usual_corners_, last_frame_);
+    clock_.transfer(archive);
+    archive(next_id_);
     for (const auto* one : {&anchor_, &older_}) {
         archive.require(!*one || (*one)->corners.size() == 0 || (*one)->corners.corners.back().id < next_id_,
                         "a corner from the future");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
+#include "registration/clock_follower.h"
 #include "registration/flight.h"
 #include "registration/registrar.h"
 
@@ -64,6 +65,19 @@ struct Stall {
         return registrar.next(next);
     }
 };
+
+Registration registered(int frame, int elapsed) {
+    Registration registration;
+    registration.state = frame == 0 ? RegistrationState::first : RegistrationState::registered;
+    registration.elapsed = elapsed;
+    return registration;
+}
+
+Registration frozen() {
+    Registration registration;
+    registration.state = RegistrationState::frozen;
+    return registration;
+}
 
 int passed(const Stall& stall) {
     const RegisteredFrame frame = stall.after();
@@ -151,6 +165,31 @@ TEST(Stall, LosesNoCornerOfWhatDroveOn) {
         return on_car && corner.age > 0 && std::abs(corner.current.x - corner.previous.x - 28) < 0.5F;
     });
     EXPECT_GE(followed, 5);
+}
+
+TEST(ClockFollower, TellsFramesThatAreMissing) {
+    ClockFollower clock(25);
+    for (int frame = 0; frame < 5; ++frame) clock.next(frame * 40'000, registered(frame, 1), 0);
+    EXPECT_EQ(clock.mostPassed(160'000, 200'000), 1);
+    EXPECT_EQ(clock.mostPassed(160'000, 320'000), 4);
+    clock.next(320'000, registered(5, 4), 0);
+    EXPECT_EQ(clock.mostPassed(320'000, 360'000), 1) << "what was made good is no wait any more";
+}
+
+TEST(ClockFollower, TakesAWaitAfterABurstForNone) {
+    ClockFollower clock(25);
+    for (int frame = 0; frame < 4; ++frame) clock.next(frame * 1'000, registered(frame, 1), 0);
+    EXPECT_EQ(clock.mostPassed(3'000, 160'000), 1) << "four pictures came at once, and the fifth when it should";
+    clock.next(4'000, registered(0, 1), 0);
+    EXPECT_EQ(clock.mostPassed(4'000, 164'000), 4) << "a video that begins anew is not ahead";
+}
+
+TEST(ClockFollower, CountsPicturesThatStoodStillOnce) {
+    ClockFollower clock(25);
+    clock.next(0, registered(0, 1), 0);
+    for (int frame = 1; frame < 4; ++frame) clock.next(frame * 40'000, frozen(), frame - 1);
+    clock.next(160'000, registered(4, 4), 3);
+    EXPECT_EQ(clock.mostPassed(160'000, 320'000), 4) << "four frames in four frames' time are not ahead";
 }
 
 }  // namespace eyrie::stall_test
