@@ -17,16 +17,17 @@ DATA = ROOT.parent / "shared" / "data"
 CLI = ROOT / "build" / "release" / "bin" / "eyrie-cli"
 
 
-
 class Clip(NamedTuple):
-    frames: Path  # a folder of pictures
-    truth: Path | None  # none: all boxes are counted, of which hardly any is right
+    """In CLIPS the names of its files below DATA; from prepared() on their paths."""
+
+    frames: str | Path  # a folder of pictures
+    truth: str | Path | None  # none: all boxes are counted, of which hardly any is right
     gsd: float | None  # m/px; none: nobody knows it
     rate: float  # Hz
     upright_truth: bool  # boxes are upright, not turned with the vehicles
 
 
-CLIPS = {  # their files below DATA
+CLIPS = {
     "uavdt_m1303": Clip("uavdt_m1303/img1", "uavdt_m1303/ground_truth.csv", 0.08, 30, True),
     "uavdt_m1003": Clip("uavdt_m1003/img1", "uavdt_m1003/ground_truth.csv", 0.2, 30, True),
     "city_nadir": Clip("city_nadir/frames", "city_nadir/ground_truth.csv", 0.32, 25, False),

@@ -12,9 +12,9 @@ class ClockFollower {
  public:
     explicit ClockFollower(double frame_rate_hz) : frame_rate_hz_(frame_rate_hz) {}
 
-    /// Takes a frame when its registration is known. `repeats_before`: how many pictures just before it stood still.
+    /// Takes a frame of this time, µs, once it is registered. `repeats_before`: so many before it stood still.
     void next(std::int64_t time_us, const Registration& registration, int repeats_before);
-    /// How many frames have passed from one picture to another at most; 1 where the clock does not tell.
+    /// How many frames have passed at most between pictures of two times, µs; 1 where the clock does not tell.
     int mostPassed(std::int64_t from_us, std::int64_t to_us) const;
 
     /// What is remembered of the frames so far, written or read; see core/state_archive.h.
